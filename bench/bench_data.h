@@ -30,9 +30,7 @@ enum class FrameSet {
   tuning,   ///< generated: two of each family, to choose constants
   judging,  ///< generated: two others
 };
-constexpr auto names_of(FrameSet) {
-  return std::to_array<std::string_view>({"paper", "tuning", "judging"});
-}
+constexpr auto names_of(FrameSet) { return std::to_array<std::string_view>({"paper", "tuning", "judging"}); }
 
 /// GLOVEBENCH_CACHE, the user's or a new temporary folder.
 /// Throws: Error.

@@ -77,14 +77,10 @@ void run_tiny_images(benchmark::State& state, MakeTinyImage make) {
   set_time_each(state, "view", views.size());
 }
 
-void plain_tiny_images(benchmark::State& state) {
-  run_tiny_images(state, make_tiny_image_plain);
-}
+void plain_tiny_images(benchmark::State& state) { run_tiny_images(state, make_tiny_image_plain); }
 BENCHMARK(plain_tiny_images)->Name("database/tiny_images/plain")->Unit(benchmark::kMillisecond);
 
-void fast_tiny_images(benchmark::State& state) {
-  run_tiny_images(state, make_tiny_image);
-}
+void fast_tiny_images(benchmark::State& state) { run_tiny_images(state, make_tiny_image); }
 BENCHMARK(fast_tiny_images)->Name("database/tiny_images/fast")->Unit(benchmark::kMillisecond);
 
 using ChamferField = void (*)(const LabelImage&, uint8_t, uint8_t, std::span<uint8_t>);
@@ -119,14 +115,10 @@ void run_fields(benchmark::State& state, ChamferField chamfer) {
   set_time_each(state, "view", views.size());
 }
 
-void plain_fields(benchmark::State& state) {
-  run_fields(state, chamfer_field_plain);
-}
+void plain_fields(benchmark::State& state) { run_fields(state, chamfer_field_plain); }
 BENCHMARK(plain_fields)->Name("database/fields/plain")->Unit(benchmark::kMillisecond);
 
-void fast_fields(benchmark::State& state) {
-  run_fields(state, chamfer_field);
-}
+void fast_fields(benchmark::State& state) { run_fields(state, chamfer_field); }
 BENCHMARK(fast_fields)->Name("database/fields/fast")->Unit(benchmark::kMillisecond);
 
 /// The 756 views of one posture on one thread.

@@ -43,14 +43,10 @@ void run_noise(benchmark::State& state, const char* depth_noise) {
   set_time_each(state, "frame", data().frames.size());
 }
 
-void gradient_noise(benchmark::State& state) {
-  run_noise(state, "gradient");
-}
+void gradient_noise(benchmark::State& state) { run_noise(state, "gradient"); }
 BENCHMARK(gradient_noise)->Name("render/depth_noise_gradient")->Unit(benchmark::kMillisecond);
 
-void kinect_noise(benchmark::State& state) {
-  run_noise(state, "kinect");
-}
+void kinect_noise(benchmark::State& state) { run_noise(state, "kinect"); }
 BENCHMARK(kinect_noise)->Name("render/depth_noise_kinect")->Unit(benchmark::kMillisecond);
 
 void color_noise(benchmark::State& state) {

@@ -26,9 +26,7 @@ void run_stage(benchmark::State& state, Stage stage, IsRight is_right, double to
 }
 
 /// All have images of the same size.
-const FrameTrace& first_trace() {
-  return data().frames[0].trace;
-}
+const FrameTrace& first_trace() { return data().frames[0].trace; }
 
 void depth(benchmark::State& state) {
   run_stage(

@@ -43,9 +43,7 @@ std::string digits(double value) {
   return value < 100 ? fmt::format("{:#.3g}", value) : fmt::format("{:.0f}", value);
 }
 
-std::string ms(double seconds) {
-  return digits(1e3 * seconds);
-}
+std::string ms(double seconds) { return digits(1e3 * seconds); }
 
 std::string ratio_table(const std::vector<EngineRatio>& ratios) {
   std::string text =

@@ -12,9 +12,7 @@ namespace {
 constexpr const char* kWithoutConstant =
     "errors do not include a constant offset or rotation between camera and capture: the alignment removed it";
 
-double as_ms(double us) {
-  return us / 1000;
-}
+double as_ms(double us) { return us / 1000; }
 
 std::vector<double> transform_numbers(const Eigen::Isometry3d& T) {
   const Eigen::Vector3d p = T.translation();

@@ -43,9 +43,7 @@ std::vector<render::Lighting> held_out_lightings() {
   return lightings;
 }
 
-double LabelErrors::wrong_share() const {
-  return static_cast<double>(wrong) / std::max(1, labeled);
-}
+double LabelErrors::wrong_share() const { return static_cast<double>(wrong) / std::max(1, labeled); }
 
 double LabelErrors::missed_share() const {
   check(glove > 0, "a share of the glove is asked where it is seen");

@@ -19,13 +19,9 @@ bool at_rest(const HandFrame& a, const HandFrame& b) {
          turn < kRestAngle && posture_distance(a.posture, b.posture) < kRestAngle;
 }
 
-bool has_posture(const TrackResult& r) {
-  return r.status == TrackStatus::tracked && r.has.posture;
-}
+bool has_posture(const TrackResult& r) { return r.status == TrackStatus::tracked && r.has.posture; }
 
-bool has_pose(const TrackResult& r) {
-  return r.status == TrackStatus::tracked && r.has.pose;
-}
+bool has_pose(const TrackResult& r) { return r.status == TrackStatus::tracked && r.has.pose; }
 
 /// Sum over tracked frames of the distance between estimated posture and the truth `delay` frames earlier.
 double delayed_distance(std::span<const TrackResult> estimates, std::span<const HandFrame> truth, int delay) {

@@ -105,17 +105,11 @@ std::string share_folder() {
   return folder.string();
 }
 
-std::string hand_mesh_path() {
-  return share_folder() + "/generic-hand-right.glb";
-}
+std::string hand_mesh_path() { return share_folder() + "/generic-hand-right.glb"; }
 
-std::string trajectory_folder() {
-  return share_folder() + "/trajectories/data";
-}
+std::string trajectory_folder() { return share_folder() + "/trajectories/data"; }
 
-std::string suite_folder() {
-  return share_folder() + "/suites";
-}
+std::string suite_folder() { return share_folder() + "/suites"; }
 
 std::vector<std::string> page_scripts() {
   const std::string folder = share_folder() + "/page/";

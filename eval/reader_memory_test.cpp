@@ -128,9 +128,7 @@ std::string with_value_at(json document, const json::json_pointer& place, const 
   return text.replace(text.find("\"HERE\""), 6, value);
 }
 
-PostureSet gestures() {
-  return {.name = "gestures", .posture_names = {"open"}, .postures = {Posture::Zero()}};
-}
+PostureSet gestures() { return {.name = "gestures", .posture_names = {"open"}, .postures = {Posture::Zero()}}; }
 
 motion::Trajectory small_trajectory() {
   motion::Trajectory trajectory;
@@ -165,9 +163,7 @@ const eval::EstimateFormat& estimate_format(const std::string& name) {
 }
 
 /// Units, order, frame and time that files may leave unsaid.
-eval::EstimateFlags estimate_flags() {
-  return {eval::load_joint_order("mediapipe"), "mm", "camera", "s"};
-}
+eval::EstimateFlags estimate_flags() { return {eval::load_joint_order("mediapipe"), "mm", "camera", "s"}; }
 
 std::vector<Reader> json_readers() {
   const std::string w = "x.json";

@@ -100,9 +100,7 @@ render::SyntheticKinectConfig kinect_config(const RunSpec& spec) {
 }
 
 /// True if specs that share images also share device frames.
-bool share_noise(const RunSpec& a, const RunSpec& b) {
-  return a.noise == b.noise && a.seed == b.seed;
-}
+bool share_noise(const RunSpec& a, const RunSpec& b) { return a.noise == b.noise && a.seed == b.seed; }
 
 /// Of the frame that the device showed last.
 double visible_percent_of(const render::SyntheticKinect& kinect, const render::Subject& subject,

@@ -16,9 +16,7 @@ using reports::Measure;
 using reports::StudyResult;
 using reports::Table;
 
-json row_of(const Posture& posture) {
-  return std::vector<double>(posture.begin(), posture.end());
-}
+json row_of(const Posture& posture) { return std::vector<double>(posture.begin(), posture.end()); }
 
 Posture posture_of(const json& row) {
   const auto values = row.get<std::array<double, kAngleCount>>();
@@ -38,9 +36,7 @@ Eigen::Isometry3d pose_of(const json& row) {
   return pose;
 }
 
-json row_of(const EstimateParts& has) {
-  return {has.posture, has.pose, has.place, has.scale, has.internals};
-}
+json row_of(const EstimateParts& has) { return {has.posture, has.pose, has.place, has.scale, has.internals}; }
 
 std::optional<Eigen::Vector3d> joint_of(const json& row) {
   if (row.is_null()) return std::nullopt;
@@ -102,13 +98,9 @@ TrackResult result_of(const json& row) {
   return r;
 }
 
-json row_of(const Sight& sight) {
-  return {sight.visible_pixels, sight.trackable, sight.visible_percent};
-}
+json row_of(const Sight& sight) { return {sight.visible_pixels, sight.trackable, sight.visible_percent}; }
 
-Sight sight_of(const json& row) {
-  return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1), row.at(2)};
-}
+Sight sight_of(const json& row) { return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1), row.at(2)}; }
 
 json row_of(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;

@@ -54,9 +54,7 @@ std::string heading(const std::string& key, std::string_view content) {
   return fmt::format("glovebench-stored {} {} {}\n", program_hash(), key, hash_text(content));
 }
 
-std::string path_of(const std::string& mark, const std::string& key) {
-  return path_within(mark, key + ".stored");
-}
+std::string path_of(const std::string& mark, const std::string& key) { return path_within(mark, key + ".stored"); }
 
 }  // namespace
 

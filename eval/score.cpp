@@ -20,9 +20,7 @@ std::vector<EstimateSequence> sequences_of(const ScoreRequest& request) {
   return {merged(sequences.front(), load_estimates(request.beside, "", request.flags).front(), request.beside)};
 }
 
-double ms_of(double us) {
-  return us / 1000;
-}
+double ms_of(double us) { return us / 1000; }
 
 std::string sentence(const TimeMatch& match, int64_t tolerance_us) {
   const size_t frames = match.answers.size(), found = frames - static_cast<size_t>(match.missing);

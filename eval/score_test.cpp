@@ -24,9 +24,7 @@ using testing::HasSubstr;
 /// Files have six decimals at least.
 constexpr double kPrinted = 1e-4;
 
-JointOrder order_named(const std::string& name) {
-  return load_joint_order(name);
-}
+JointOrder order_named(const std::string& name) { return load_joint_order(name); }
 
 /// Scores texts against some frames of Tr4.
 class ScoreOfText : public testing::Test {

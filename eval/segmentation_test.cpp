@@ -88,13 +88,9 @@ TEST(SegmentationLong, OneLightingAloneTellsLessInEitherSpace) {
   }
 }
 
-TEST(SegmentationLong, FirstSubjectUnderHeldOutLightings) {
-  expect_usable(summarize(1, errors_of_subject(1)));
-}
+TEST(SegmentationLong, FirstSubjectUnderHeldOutLightings) { expect_usable(summarize(1, errors_of_subject(1))); }
 
-TEST(SegmentationLong, SecondSubjectUnderHeldOutLightings) {
-  expect_usable(summarize(2, errors_of_subject(2)));
-}
+TEST(SegmentationLong, SecondSubjectUnderHeldOutLightings) { expect_usable(summarize(2, errors_of_subject(2))); }
 
 }  // namespace
 }  // namespace glovebench::eval

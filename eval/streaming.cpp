@@ -16,9 +16,7 @@ namespace {
 using reports::Column;
 using reports::Table;
 
-double milliseconds(const HandFrame& frame) {
-  return static_cast<double>(frame.timestamp_us) / 1000;
-}
+double milliseconds(const HandFrame& frame) { return static_cast<double>(frame.timestamp_us) / 1000; }
 
 std::vector<double> arrivals_ms(const RunSpec& spec) {
   std::vector<double> arrivals;
@@ -151,9 +149,7 @@ struct PlaybackMeans {
   std::optional<double> age_ms;
 };
 
-bool is_answer(const TrackResult& result) {
-  return result.status != TrackStatus::missing;
-}
+bool is_answer(const TrackResult& result) { return result.status != TrackStatus::missing; }
 
 PlaybackMeans means_of(const Streaming& streaming, const Experiment& experiment, std::span<const MeasuredRun> runs,
                        const std::vector<Playback>& playbacks, std::span<const MeasuredRun> in_use) {

@@ -12,13 +12,9 @@ constexpr int kBarWidth = 40;
 constexpr double kBarDelay = 2.0;        // s
 constexpr double kStatusInterval = 0.5;  // s
 
-bool is_terminal() {
-  return isatty(STDERR_FILENO) != 0;
-}
+bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
-double seconds_left(double share, double elapsed) {
-  return share > 0 ? elapsed * (1 - share) / share : 0;
-}
+double seconds_left(double share, double elapsed) { return share > 0 ? elapsed * (1 - share) / share : 0; }
 
 /// When and how often progress goes to a log.
 struct ProgressLog {
@@ -49,9 +45,7 @@ void note_wish(int) {
 }
 
 /// Stays installed, since the kernel and the shell may both report a closed terminal.
-void note_hang_up(int) {
-  wish = 1;
-}
+void note_hang_up(int) { wish = 1; }
 
 }  // namespace
 
@@ -72,9 +66,7 @@ void log_progress(double interval) {
 Progress::Progress(std::string title, bool quiet)
     : title_(std::move(title)), quiet_(quiet), has_bar_(is_terminal()) {}
 
-Progress::~Progress() {
-  erase_bar();
-}
+Progress::~Progress() { erase_bar(); }
 
 void Progress::show(double share) {
   if (quiet_) return;
@@ -158,8 +150,6 @@ Interruption::~Interruption() {
   sigaction(SIGHUP, &before_hup_, nullptr);
 }
 
-bool Interruption::wished() {
-  return wish != 0;
-}
+bool Interruption::wished() { return wish != 0; }
 
 }  // namespace glovebench::eval

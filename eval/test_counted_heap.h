@@ -42,19 +42,13 @@ void* __libc_realloc(void* memory, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 void __libc_free(void* memory);
 
-void* malloc(size_t size) {
-  return counted_heap::taken(__libc_malloc(size));
-}
-void* calloc(size_t number, size_t size) {
-  return counted_heap::taken(__libc_calloc(number, size));
-}
+void* malloc(size_t size) { return counted_heap::taken(__libc_malloc(size)); }
+void* calloc(size_t number, size_t size) { return counted_heap::taken(__libc_calloc(number, size)); }
 void* realloc(void* memory, size_t size) {
   counted_heap::given_back(memory);
   return counted_heap::taken(__libc_realloc(memory, size));
 }
-void* aligned_alloc(size_t alignment, size_t size) {
-  return counted_heap::taken(__libc_memalign(alignment, size));
-}
+void* aligned_alloc(size_t alignment, size_t size) { return counted_heap::taken(__libc_memalign(alignment, size)); }
 int posix_memalign(void** memory, size_t alignment, size_t size) {
   *memory = counted_heap::taken(__libc_memalign(alignment, size));
   return *memory != nullptr ? 0 : ENOMEM;

@@ -27,11 +27,7 @@ inline double time_ms(clockid_t clock) {
   check(clock_gettime(clock, &time) == 0, "a thread has a clock");
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
-inline double thread_time_ms() {
-  return time_ms(CLOCK_THREAD_CPUTIME_ID);
-}
-inline double wall_time_ms() {
-  return time_ms(CLOCK_MONOTONIC);
-}
+inline double thread_time_ms() { return time_ms(CLOCK_THREAD_CPUTIME_ID); }
+inline double wall_time_ms() { return time_ms(CLOCK_MONOTONIC); }
 
 }  // namespace glovebench::eval

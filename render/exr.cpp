@@ -165,13 +165,9 @@ std::string encode_exr(const FrameLayers& layers, const std::string& where) {
   return stream.str();
 }
 
-void write_exr(const std::string& path, const FrameLayers& layers) {
-  write_file(path, encode_exr(layers, path));
-}
+void write_exr(const std::string& path, const FrameLayers& layers) { write_file(path, encode_exr(layers, path)); }
 
-FrameLayers read_exr(const std::string& path) {
-  return parse_exr(read_file(path, kLargestFile), path);
-}
+FrameLayers read_exr(const std::string& path) { return parse_exr(read_file(path, kLargestFile), path); }
 
 FrameLayers parse_exr(const std::string& content, const std::string& where) {
   try {

@@ -3,8 +3,6 @@
 
 namespace glovebench {
 
-void exr_fuzz(std::string_view bytes) {
-  render::parse_exr(std::string(bytes), "frame.exr");
-}
+void exr_fuzz(std::string_view bytes) { render::parse_exr(std::string(bytes), "frame.exr"); }
 
 }  // namespace glovebench

@@ -47,17 +47,11 @@ Program::Program(const std::string& vertex_source, const std::string& fragment_s
   check(fine, "a shader program links");
 }
 
-Program::~Program() {
-  glDeleteProgram(id_);
-}
+Program::~Program() { glDeleteProgram(id_); }
 
-void Program::use() const {
-  glUseProgram(id_);
-}
+void Program::use() const { glUseProgram(id_); }
 
-GLint Program::location(const char* name) const {
-  return glGetUniformLocation(id_, name);
-}
+GLint Program::location(const char* name) const { return glGetUniformLocation(id_, name); }
 
 void Program::set(const char* name, const Eigen::Matrix4f& value) const {
   glUniformMatrix4fv(location(name), 1, GL_FALSE, value.data());
@@ -67,21 +61,15 @@ void Program::set(const char* name, const Eigen::Vector3f& value) const {
   glUniform3fv(location(name), 1, value.data());
 }
 
-void Program::set(const char* name, float value) const {
-  glUniform1f(location(name), value);
-}
+void Program::set(const char* name, float value) const { glUniform1f(location(name), value); }
 
-void Program::set(const char* name, int value) const {
-  glUniform1i(location(name), value);
-}
+void Program::set(const char* name, int value) const { glUniform1i(location(name), value); }
 
 void Program::set(const char* name, std::span<const Eigen::Vector4f> values) const {
   glUniform4fv(location(name), static_cast<GLsizei>(values.size()), values.front().data());
 }
 
-Framebuffer::~Framebuffer() {
-  release();
-}
+Framebuffer::~Framebuffer() { release(); }
 
 void Framebuffer::release() {
   if (id_ == 0) return;
@@ -129,9 +117,7 @@ void Framebuffer::read(int attachment, GLenum format, GLenum type, int left, int
   glReadPixels(left, top, width, height, format, type, pixels);
 }
 
-VertexArray::VertexArray() {
-  glGenVertexArrays(1, &id_);
-}
+VertexArray::VertexArray() { glGenVertexArrays(1, &id_); }
 
 VertexArray::~VertexArray() {
   glDeleteVertexArrays(1, &id_);

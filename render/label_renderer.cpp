@@ -92,13 +92,9 @@ struct LabelRenderer::State {
   }
 };
 
-LabelRenderer::LabelRenderer() : state_(std::make_unique<State>()) {
-  state_->context.release();
-}
+LabelRenderer::LabelRenderer() : state_(std::make_unique<State>()) { state_->context.release(); }
 
-LabelRenderer::~LabelRenderer() {
-  state_->context.make_current();
-}
+LabelRenderer::~LabelRenderer() { state_->context.make_current(); }
 
 LabelImage LabelRenderer::render_labels(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
                                         const Eigen::Isometry3d& T_camera_hand) {

@@ -127,9 +127,7 @@ ColorImage picture_of_depth_difference(const DepthImage& depth, const DepthImage
   return picture;
 }
 
-void write_png(const std::string& path, const ColorImage& image) {
-  write_file(path, encode_png(image));
-}
+void write_png(const std::string& path, const ColorImage& image) { write_file(path, encode_png(image)); }
 
 ColorImage montage(const std::vector<Panel>& panels, int columns, int cell_width, int cell_height) {
   const int rows = (static_cast<int>(panels.size()) + columns - 1) / columns;

@@ -297,9 +297,7 @@ RgbdRenderer::RgbdRenderer(const RgbdCalibration& calibration, Subject subject, 
   state_->context.release();
 }
 
-RgbdRenderer::~RgbdRenderer() {
-  state_->context.make_current();
-}
+RgbdRenderer::~RgbdRenderer() { state_->context.make_current(); }
 
 RgbdImages RgbdRenderer::render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand,
                                 const Lighting& lighting) {

@@ -40,9 +40,7 @@ std::string number_text(size_t column, double value) {
 
 }  // namespace
 
-std::string estimates_heading() {
-  return fmt::format("{}", fmt::join(columns(), ","));
-}
+std::string estimates_heading() { return fmt::format("{}", fmt::join(columns(), ",")); }
 
 std::string estimate_csv_line(const Estimate& estimate) {
   std::string line =
@@ -162,9 +160,7 @@ void check_order(const Line& line, const std::vector<Estimate>& before, const Es
 
 }  // namespace
 
-std::string estimates_file(const ExperimentKey& key) {
-  return fmt::format("estimates/{}.csv", to_string(key));
-}
+std::string estimates_file(const ExperimentKey& key) { return fmt::format("estimates/{}.csv", to_string(key)); }
 
 std::string estimates_csv(const ExperimentEstimates& estimates) {
   std::string csv = estimates_heading() + "\n";

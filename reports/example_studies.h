@@ -88,8 +88,6 @@ inline StudyResult example_figure8() {
 }
 
 /// With empty cells, an inconclusive and a broken claim.
-inline std::vector<StudyResult> example_studies() {
-  return {example_figure7(), example_figure8()};
-}
+inline std::vector<StudyResult> example_studies() { return {example_figure7(), example_figure8()}; }
 
 }  // namespace glovebench::reports

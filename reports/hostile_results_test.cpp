@@ -46,9 +46,7 @@ std::string hostile_error_of_change(const std::function<void(json&)>& change) {
 }
 
 /// The first frame of the first seed of the first experiment.
-json& first_frame(json& results) {
-  return results["experiments"][0]["runs"][0]["frames"][0];
-}
+json& first_frame(json& results) { return results["experiments"][0]["runs"][0]["frames"][0]; }
 
 std::string error_of_reading(const std::string& path) {
   try {

@@ -18,9 +18,7 @@
 namespace glovebench::reports {
 namespace {
 
-std::optional<double> read_value(const JsonCursor& json) {
-  return json.number_or_null(0, kLargestError);
-}
+std::optional<double> read_value(const JsonCursor& json) { return json.number_or_null(0, kLargestError); }
 
 std::vector<std::string> read_texts(const JsonCursor& json) {
   std::vector<std::string> texts;
@@ -297,9 +295,7 @@ ExperimentResult read_experiment(const JsonCursor& json, const FileMetrics& metr
 
 }  // namespace
 
-RunResult read_results(const std::string& path) {
-  return parse_results(read_file(path, kLargestResults), path);
-}
+RunResult read_results(const std::string& path) { return parse_results(read_file(path, kLargestResults), path); }
 
 RunResult parse_results(const std::string& text, const std::string& where) {
   nlohmann::json document = parse_json(text, where);

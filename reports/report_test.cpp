@@ -19,9 +19,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string fresh_folder(const std::string& name) {
-  return test_folder() + "/" + name;
-}
+std::string fresh_folder(const std::string& name) { return test_folder() + "/" + name; }
 
 Timings example_timings() {
   Timings timings;

@@ -32,17 +32,11 @@ void count(std::optional<int>& counted, std::optional<bool> is_true) {
 
 }  // namespace
 
-std::optional<double> Coverage::share() const {
-  return part_of(covered, frames);
-}
+std::optional<double> Coverage::share() const { return part_of(covered, frames); }
 
-std::optional<double> Coverage::found_share() const {
-  return part_of(found, visible);
-}
+std::optional<double> Coverage::found_share() const { return part_of(found, visible); }
 
-std::optional<double> Coverage::usable_share() const {
-  return part_of(usable, visible);
-}
+std::optional<double> Coverage::usable_share() const { return part_of(usable, visible); }
 
 Coverage count_coverage(const std::vector<SeedRun>& runs) {
   Coverage coverage;

@@ -39,9 +39,7 @@ struct FrameRecord {
 };
 
 enum class TruthKind { recorded, source };
-constexpr auto names_of(TruthKind) {
-  return std::to_array<std::string_view>({"recorded", "source"});
-}
+constexpr auto names_of(TruthKind) { return std::to_array<std::string_view>({"recorded", "source"}); }
 using glovebench::to_string;
 
 struct NoiseSetting {

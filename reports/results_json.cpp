@@ -20,9 +20,7 @@ Json aggregates_json(const ExperimentResult& experiment, std::span<const std::st
   return json;
 }
 
-Json or_null(std::optional<int> count) {
-  return count ? Json(*count) : Json();
-}
+Json or_null(std::optional<int> count) { return count ? Json(*count) : Json(); }
 
 Json coverage_json(const Coverage& coverage, bool has_levels) {
   Json json = {{"frames", coverage.frames},
@@ -129,8 +127,6 @@ std::string results_json(const RunResult& result) {
   return format_json(json);
 }
 
-void write_results(const std::string& path, const RunResult& result) {
-  write_file(path, results_json(result));
-}
+void write_results(const std::string& path, const RunResult& result) { write_file(path, results_json(result)); }
 
 }  // namespace glovebench::reports

@@ -62,9 +62,7 @@ TEST(Statistics, PckCountsLostKeypointsInTheDenominator) {
   EXPECT_THROW(pck_curve(Values{1, 2}, 1), std::logic_error);
 }
 
-TEST(Statistics, PerfectKeypointsFillTheCurve) {
-  EXPECT_DOUBLE_EQ(*pck_curve(Values{0, 0}, 2).area, 1);
-}
+TEST(Statistics, PerfectKeypointsFillTheCurve) { EXPECT_DOUBLE_EQ(*pck_curve(Values{0, 0}, 2).area, 1); }
 
 std::vector<std::vector<std::optional<double>>> noisy_values(uint64_t stream, int seeds, int frames) {
   std::vector<std::vector<std::optional<double>>> values(seeds);

@@ -159,9 +159,7 @@ void check_table(const Table& table) {
   for (const auto& row : table.rows) check(row.size() == table.columns.size(), "a row has one cell a column");
 }
 
-bool has_times(const Table& table) {
-  return std::ranges::any_of(table.columns, &Column::is_time);
-}
+bool has_times(const Table& table) { return std::ranges::any_of(table.columns, &Column::is_time); }
 
 }  // namespace
 

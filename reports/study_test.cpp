@@ -27,9 +27,7 @@ StudyResult small_study() {
            {"sizes.time_ms", "ms", 10, {}, true}}};
 }
 
-json written(const StudyResult& study) {
-  return json::parse(format_json(studies_json({study})));
-}
+json written(const StudyResult& study) { return json::parse(format_json(studies_json({study}))); }
 std::vector<StudyResult> read(const json& document) {
   const std::string where = "results.json";
   return read_studies(JsonCursor(document, where, "studies"));

@@ -29,9 +29,7 @@ Texts texts_of(const Table& table, const Row& row) {
   return texts;
 }
 
-bool is_name_column(const Table& table, size_t column) {
-  return std::cmp_less(column, table.name_columns);
-}
+bool is_name_column(const Table& table, size_t column) { return std::cmp_less(column, table.name_columns); }
 
 /// "0.00" for "-0.00".
 std::string without_minus_zero(std::string text) {
@@ -120,9 +118,7 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Cell cell(const std::optional<double>& value) {
-  return value ? Cell(*value) : Cell();
-}
+Cell cell(const std::optional<double>& value) { return value ? Cell(*value) : Cell(); }
 
 Table table_of(const std::vector<std::string>& headings, int name_columns) {
   Table table;

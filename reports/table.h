@@ -25,9 +25,7 @@ struct Column {
 
 /// Names are CSS classes.
 enum class Tone { better, worse, same, unsure };
-constexpr auto names_of(Tone) {
-  return std::to_array<std::string_view>({"better", "worse", "same", "unsure"});
-}
+constexpr auto names_of(Tone) { return std::to_array<std::string_view>({"better", "worse", "same", "unsure"}); }
 
 struct Judgment {
   std::string text;

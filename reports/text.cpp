@@ -184,9 +184,7 @@ double rounded(double value) {
   return std::round(value * 1e6) / 1e6 + 0.0;  // + 0.0 turns -0 into 0
 }
 
-Json rounded_or_null(const std::optional<double>& value) {
-  return value ? Json(rounded(*value)) : Json(nullptr);
-}
+Json rounded_or_null(const std::optional<double>& value) { return value ? Json(rounded(*value)) : Json(nullptr); }
 
 std::string valid_utf8(const std::string& text) {
   return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();

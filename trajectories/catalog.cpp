@@ -14,9 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string folder_of(TrajectoryKind kind) {
-  return kind == TrajectoryKind::source ? "sources" : "recorded";
-}
+std::string folder_of(TrajectoryKind kind) { return kind == TrajectoryKind::source ? "sources" : "recorded"; }
 
 /// The names of the JSON files in a folder, sorted; none if there is no such folder.
 std::vector<std::string> names_in(const fs::path& folder) {

@@ -25,9 +25,7 @@ const HandModel& right_hand() {
   return model;
 }
 
-Posture gesture(const std::string& name) {
-  return find_posture(load_gestures(kFolder), name);
-}
+Posture gesture(const std::string& name) { return find_posture(load_gestures(kFolder), name); }
 
 class GroundTruth : public ::testing::TestWithParam<std::string> {
  protected:

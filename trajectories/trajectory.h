@@ -13,9 +13,7 @@ namespace glovebench::trajectories {
 /// `source`: a movement as it was made. `recorded`: a tracker's output on a source.
 /// Paper: section IV.
 enum class TrajectoryKind { source, recorded };
-constexpr auto names_of(TrajectoryKind) {
-  return std::to_array<std::string_view>({"source", "recorded"});
-}
+constexpr auto names_of(TrajectoryKind) { return std::to_array<std::string_view>({"source", "recorded"}); }
 
 struct Provenance {
   std::string source;

@@ -83,9 +83,7 @@ Trajectory moving(double from_m, double to_m, double bend_deg) {
   return trajectory;
 }
 
-std::vector<std::string> doubts(const Trajectory& trajectory) {
-  return unit_doubts(trajectory, {});
-}
+std::vector<std::string> doubts(const Trajectory& trajectory) { return unit_doubts(trajectory, {}); }
 
 TEST(UnitDoubts, none_of_what_can_be) {
   EXPECT_THAT(doubts(moving(0.6, 0.8, 60)), IsEmpty());

@@ -35,9 +35,7 @@ Trajectory example(int frame_count = 3) {
   return trajectory;
 }
 
-json example_json() {
-  return json::parse(canonical_text(example()));
-}
+json example_json() { return json::parse(canonical_text(example())); }
 
 std::string complaint(const std::string& text) {
   try {
@@ -48,9 +46,7 @@ std::string complaint(const std::string& text) {
   return "no complaint";
 }
 
-std::string complaint(const json& document) {
-  return complaint(document.dump());
-}
+std::string complaint(const json& document) { return complaint(document.dump()); }
 
 TEST(Trajectory, keeps_its_values_to_the_rounding_of_the_file) {
   const Trajectory before = example(50);

@@ -13,12 +13,8 @@ using Triangles = std::vector<Kernel::Triangle_3>;
 using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3f& p) {
-  return {p.x(), p.y(), p.z()};
-}
-Eigen::Vector3f from_cgal(const Kernel::Point_3& p) {
-  return {p.x(), p.y(), p.z()};
-}
+Kernel::Point_3 to_cgal(const Eigen::Vector3f& p) { return {p.x(), p.y(), p.z()}; }
+Eigen::Vector3f from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
 struct ColorTree {
   explicit ColorTree(const RecycledVector<Surface::Face>& faces) {

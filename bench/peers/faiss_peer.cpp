@@ -89,9 +89,7 @@ class FaissLookUp : public LookUpPeer {
 
 constexpr faiss::MetricType kProduct = faiss::METRIC_INNER_PRODUCT;
 
-std::unique_ptr<faiss::Index> flat(int d) {
-  return std::make_unique<faiss::IndexFlatIP>(d);
-}
+std::unique_ptr<faiss::Index> flat(int d) { return std::make_unique<faiss::IndexFlatIP>(d); }
 
 /// Bytes as they are, of the query, too: exact.
 std::unique_ptr<faiss::Index> bytes(int d) {

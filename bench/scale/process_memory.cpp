@@ -28,9 +28,7 @@ ResidentMemory resident_memory() {
   return memory;
 }
 
-void reset_peak() {
-  std::ofstream("/proc/self/clear_refs") << "5";
-}
+void reset_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 PageFaults page_faults() {
   rusage usage{};

@@ -36,9 +36,7 @@ TEST(StandIns, NameOpenNi2) {
       ThrowsMessage<Error>(AllOf(HasSubstr("a.oni"), HasSubstr("without OpenNI2"), HasSubstr("libopenni2-dev"))));
 }
 
-TEST(StandIns, SolveForNoArm) {
-  EXPECT_EQ(make_arm_solver(), nullptr);
-}
+TEST(StandIns, SolveForNoArm) { EXPECT_EQ(make_arm_solver(), nullptr); }
 
 }  // namespace
 }  // namespace glovebench

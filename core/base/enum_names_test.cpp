@@ -8,9 +8,7 @@ namespace glovebench {
 namespace {
 
 enum class Light { red, amber, green };
-constexpr auto names_of(Light) {
-  return std::to_array<std::string_view>({"red", "yellow-red", "green"});
-}
+constexpr auto names_of(Light) { return std::to_array<std::string_view>({"red", "yellow-red", "green"}); }
 enum class Nameless { one };
 static_assert(Named<Light> && !Named<Nameless> && !Named<int>);
 

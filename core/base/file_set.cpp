@@ -37,9 +37,7 @@ constexpr const char* kFormat = "glovebench-manifest";
 /// Lines in the staging folder: the hash of the new manifest, then the files that the write removes.
 constexpr const char* kRemoved = ".removed";
 
-std::string staged_folder(const std::string& folder) {
-  return folder + "/.staged";
-}
+std::string staged_folder(const std::string& folder) { return folder + "/.staged"; }
 
 std::pair<std::string, ManifestEntry> entry_from(const nlohmann::json& json, const std::string& where) {
   std::string name = json.at("name");

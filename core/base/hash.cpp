@@ -11,9 +11,7 @@
 namespace glovebench {
 namespace {
 
-std::string to_text(const XXH128_hash_t& hash) {
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
+std::string to_text(const XXH128_hash_t& hash) { return fmt::format("{:016x}{:016x}", hash.high64, hash.low64); }
 
 }  // namespace
 
@@ -21,9 +19,7 @@ std::string hash_bytes(std::span<const std::byte> bytes) {
   return to_text(XXH3_128bits(bytes.data(), bytes.size()));
 }
 
-std::string hash_text(std::string_view text) {
-  return hash_bytes(std::as_bytes(std::span(text)));
-}
+std::string hash_text(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text))); }
 
 std::string hash_file(const std::string& path) {
   InputFile file(path);

@@ -69,9 +69,7 @@ InputFile::InputFile(const std::string& path, Kind kind) : path_(path) {
   if (is_pipe) wait_for_writer(descriptor_);
 }
 
-InputFile::~InputFile() {
-  ::close(descriptor_);
-}
+InputFile::~InputFile() { ::close(descriptor_); }
 
 void InputFile::require_unchanged() const {
   struct stat now = {};

@@ -124,13 +124,9 @@ Eigen::Vector3d JsonCursor::vector3(std::optional<double> most) const {
   return vector;
 }
 
-std::string JsonCursor::place() const {
-  return *where_ + ": " + (path_.empty() ? "top level" : path_);
-}
+std::string JsonCursor::place() const { return *where_ + ": " + (path_.empty() ? "top level" : path_); }
 
-void JsonCursor::fail(const std::string& expected) const {
-  fail(excerpt(*value_), expected);
-}
+void JsonCursor::fail(const std::string& expected) const { fail(excerpt(*value_), expected); }
 
 void JsonCursor::fail(const std::string& found, const std::string& expected) const {
   throw Error(*where_, path_.empty() ? "top level" : path_, found, expected);

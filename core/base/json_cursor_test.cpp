@@ -17,9 +17,7 @@ using testing::StartsWith;
 const std::string kWhere = "file.json";
 
 enum class Fruit { apple, pear };
-constexpr auto names_of(Fruit) {
-  return std::to_array<std::string_view>({"apple", "pear"});
-}
+constexpr auto names_of(Fruit) { return std::to_array<std::string_view>({"apple", "pear"}); }
 
 std::string error_of(const std::function<void()>& read) {
   try {

@@ -40,13 +40,9 @@ MappedMemory MappedMemory::of_descriptor(int descriptor, size_t bytes, const std
   return {data, bytes, true};
 }
 
-void MappedMemory::release(size_t offset, size_t bytes) const {
-  advise(offset, bytes, MADV_DONTNEED);
-}
+void MappedMemory::release(size_t offset, size_t bytes) const { advise(offset, bytes, MADV_DONTNEED); }
 
-void MappedMemory::expect_random_reads(size_t offset, size_t bytes) const {
-  advise(offset, bytes, MADV_RANDOM);
-}
+void MappedMemory::expect_random_reads(size_t offset, size_t bytes) const { advise(offset, bytes, MADV_RANDOM); }
 
 void MappedMemory::require_unchanged() const {
   if (input_) input_->require_unchanged();

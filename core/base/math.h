@@ -8,12 +8,8 @@
 
 namespace glovebench {
 
-constexpr double radians_from_degrees(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
-constexpr double degrees_from_radians(double radians) {
-  return radians * 180.0 / std::numbers::pi;
-}
+constexpr double radians_from_degrees(double degrees) { return degrees * std::numbers::pi / 180.0; }
+constexpr double degrees_from_radians(double radians) { return radians * 180.0 / std::numbers::pi; }
 /// 0 to pi rad. Exactly 0 for equal rotations.
 inline double angle_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
   if (from == to) return 0;

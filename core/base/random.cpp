@@ -19,13 +19,9 @@ uint64_t stream_seed(uint64_t seed, std::string_view sequence, int64_t frame, st
 RandomStream::RandomStream(uint64_t seed, std::string_view sequence, int64_t frame, std::string_view purpose)
     : engine_(stream_seed(seed, sequence, frame, purpose)) {}
 
-uint64_t RandomStream::bits() {
-  return engine_();
-}
+uint64_t RandomStream::bits() { return engine_(); }
 
-double RandomStream::uniform() {
-  return static_cast<double>(engine_() >> 11) * 0x1.0p-53;
-}
+double RandomStream::uniform() { return static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
 
 double RandomStream::normal() {
   if (has_spare_) {

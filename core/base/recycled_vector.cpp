@@ -20,13 +20,9 @@ constexpr int kSmallest = 6;  // 64 bytes
 constexpr int kClasses = 27 - kSmallest;
 
 /// The class of blocks for so many bytes: 0 for the smallest; kClasses or more are not kept.
-int class_of(size_t bytes) {
-  return std::max<int>(0, std::bit_width(std::max<size_t>(bytes, 1) - 1) - kSmallest);
-}
+int class_of(size_t bytes) { return std::max<int>(0, std::bit_width(std::max<size_t>(bytes, 1) - 1) - kSmallest); }
 
-size_t block_bytes(int block_class) {
-  return size_t{1} << (block_class + kSmallest);
-}
+size_t block_bytes(int block_class) { return size_t{1} << (block_class + kSmallest); }
 
 /// Set when `waiting` is destroyed: other destructors of the thread may run later and give memory back.
 thread_local bool thread_ends = false;
@@ -78,9 +74,7 @@ constexpr bool kRecycles = false;
 constexpr bool kRecycles = true;
 #endif
 
-bool is_recycled(int block_class) {
-  return kRecycles && block_class < kClasses && !thread_ends;
-}
+bool is_recycled(int block_class) { return kRecycles && block_class < kClasses && !thread_ends; }
 
 }  // namespace
 

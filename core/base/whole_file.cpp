@@ -101,9 +101,7 @@ Written write_all(int descriptor, std::string_view content) {
   return written;
 }
 
-int sync_file(int descriptor) {
-  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
-}
+int sync_file(int descriptor) { return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno; }
 
 std::string folder_above(const std::string& path) {
   const std::string parent = fs::path(path).parent_path();

@@ -12,9 +12,7 @@ namespace glovebench::calibration {
 /// Color without brightness: ((U - 128) / Y, (V - 128) / Y) of gamma-coded RGB (BT.601).
 using Chroma = Eigen::Vector2d;
 
-inline double luma_of(const Eigen::Array3d& rgb) {
-  return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
-}
+inline double luma_of(const Eigen::Array3d& rgb) { return 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2]; }
 /// `rgb`: not black.
 inline Chroma chroma_of(const Eigen::Array3d& rgb) {
   const double luma = luma_of(rgb);

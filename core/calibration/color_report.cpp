@@ -17,9 +17,7 @@ Eigen::Matrix2d seen_covariance(const GloveColor& color, double luma, double noi
   return color.covariance + noise * noise * Eigen::Matrix2d::Identity();
 }
 
-double median_luma(const GloveColor& color) {
-  return color.lumas[2];
-}
+double median_luma(const GloveColor& color) { return color.lumas[2]; }
 
 Rgb rgb_of(const Chroma& chroma, double luma) {
   const Eigen::Array3d rgb = (luma * rgb_of_chroma(chroma)).round().max(0).min(255);
@@ -79,15 +77,9 @@ void find_nearest(const GloveColorFit& fit, ColorSeparation& separation) {
   }
 }
 
-double percent(double share) {
-  return std::round(1e4 * share) / 100;
-}
-double rounded(double value) {
-  return std::round(1e4 * value) / 1e4;
-}
-nlohmann::ordered_json json_of(const Chroma& chroma) {
-  return {rounded(chroma[0]), rounded(chroma[1])};
-}
+double percent(double share) { return std::round(1e4 * share) / 100; }
+double rounded(double value) { return std::round(1e4 * value) / 1e4; }
+nlohmann::ordered_json json_of(const Chroma& chroma) { return {rounded(chroma[0]), rounded(chroma[1])}; }
 
 double overexposed_share(const ColorSamples& samples) {
   const auto white = std::ranges::count_if(samples.inside(), is_overexposed, &ColorSample::rgb);

@@ -146,8 +146,6 @@ void ColorSamples::add_frame(const DeviceFrame& frame, const RgbdCalibration& ca
   }
 }
 
-double ColorSamples::noise_gray() const {
-  return quantile_of(noise_, 0.5).value_or(0);
-}
+double ColorSamples::noise_gray() const { return quantile_of(noise_, 0.5).value_or(0); }
 
 }  // namespace glovebench::calibration

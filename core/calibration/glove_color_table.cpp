@@ -7,9 +7,7 @@ namespace glovebench::calibration {
 namespace {
 
 /// Approximates sRGB's curve. Colors mix in linear light.
-Eigen::Array3d linear(const Rgb& rgb) {
-  return (array_of(rgb) / 255).pow(2.2);
-}
+Eigen::Array3d linear(const Rgb& rgb) { return (array_of(rgb) / 255).pow(2.2); }
 
 /// The share of `near` in a mixed pixel. Empty if the pixel is no mix of the two.
 std::optional<double> share_of_near(const MixedSample& mixed) {

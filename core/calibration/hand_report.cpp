@@ -15,9 +15,7 @@ constexpr std::array<std::string_view, kPatchCount> kPatchNames = {
     "palm_radial",     "palm_ulnar",          "back_radial",         "back_ulnar",         "cuff"};
 constexpr std::array<std::string_view, 5> kFingerNames = {"thumb", "index", "middle", "ring", "little"};
 
-double to_digits(double value, double per_unit) {
-  return std::round(value * per_unit) / per_unit;
-}
+double to_digits(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 std::vector<std::string> unseen_sizes(const HandFit& fit) {
   std::vector<std::string> names;
@@ -31,9 +29,7 @@ double points_a_view(const HandFit& fit, int patch) {
   return static_cast<double>(fit.patches[patch].points) / static_cast<double>(fit.poses.size());
 }
 
-std::string percent_text(double factor) {
-  return fmt::format("{:+.1f}", 100 * (factor - 1));
-}
+std::string percent_text(double factor) { return fmt::format("{:+.1f}", 100 * (factor - 1)); }
 
 }  // namespace
 

@@ -25,9 +25,7 @@ inline int lens_flags(LensModel lens) {
   return cv::CALIB_ZERO_TANGENT_DIST | cv::CALIB_FIX_K1 | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3;
 }
 
-inline cv::TermCriteria solver_criteria() {
-  return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10};
-}
+inline cv::TermCriteria solver_criteria() { return {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10}; }
 
 inline PinholeCamera camera_of(const cv::Mat& K, cv::Size size) {
   return {.width = size.width,

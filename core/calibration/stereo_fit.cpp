@@ -134,9 +134,7 @@ void require_one_device(const Eigen::Isometry3d& T_rgb_ir) {
 
 using nlohmann::json;
 
-json errors_json(const std::string& name, double error_px) {
-  return {{"name", name}, {"error_px", error_px}};
-}
+json errors_json(const std::string& name, double error_px) { return {{"name", name}, {"error_px", error_px}}; }
 
 json left_out_json(const std::vector<LeftOut>& left_out) {
   json entries = json::array();

@@ -16,12 +16,8 @@ ColorImage coordinate_image(int width, int height) {
                      static_cast<uint8_t>(u >> 8 | v >> 8 << 4)};
   return image;
 }
-int u_of(const Rgb& color) {
-  return color[0] | (color[2] & 15) << 8;
-}
-int v_of(const Rgb& color) {
-  return color[1] | (color[2] >> 4) << 8;
-}
+int u_of(const Rgb& color) { return color[0] | (color[2] & 15) << 8; }
+int v_of(const Rgb& color) { return color[1] | (color[2] >> 4) << 8; }
 
 /// Two equal, parallel cameras of f 500 px, the RGB camera 24 mm to the right: pixels move left by 12 m px / z.
 /// The principal points differ by a third of a pixel, so that no correspondence lies on a pixel border.

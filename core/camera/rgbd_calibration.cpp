@@ -76,9 +76,7 @@ json camera_to_json(const PinholeCamera& camera, const LensDistortion& lens) {
   return written;
 }
 
-json vector_to_json(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
+json vector_to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 
@@ -143,9 +141,7 @@ RgbdCalibration load_calibration(const std::string& path) {
   return calibration_from_text(read_file(path, kLargestCalibration), path);
 }
 
-std::string calibration_text(const RgbdCalibration& calibration) {
-  return to_json(calibration).dump(2) + "\n";
-}
+std::string calibration_text(const RgbdCalibration& calibration) { return to_json(calibration).dump(2) + "\n"; }
 
 void save_calibration(const RgbdCalibration& calibration, const std::string& path) {
   write_file(path, calibration_text(calibration));

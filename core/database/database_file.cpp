@@ -29,9 +29,7 @@ constexpr size_t kHeaderBegin = kDatabaseMagic.size() + sizeof(uint64_t) + kData
 constexpr uint64_t kMaxHeader = 256 << 20;  // of 100 million entries: 70 MB
 constexpr uint64_t kPage = 4096;
 
-uint64_t whole_pages(uint64_t bytes) {
-  return (bytes + kPage - 1) / kPage * kPage;
-}
+uint64_t whole_pages(uint64_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
 json postures_to_json(const PostureSet& set) {
   json postures = json::array();

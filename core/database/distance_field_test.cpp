@@ -24,9 +24,7 @@ double nearest(const LabelImage& labels, uint8_t color, int u, int v, Distance&&
 }
 
 /// The cheapest path over the pixel grid: a diagonal step costs 4, a straight one 3.
-double shortest_3_4_path(int du, int dv) {
-  return 4.0 * std::min(du, dv) + 3.0 * std::abs(du - dv);
-}
+double shortest_3_4_path(int du, int dv) { return 4.0 * std::min(du, dv) + 3.0 * std::abs(du - dv); }
 
 std::vector<uint8_t> field_of(const LabelImage& labels, uint8_t color, uint8_t cap) {
   std::vector<uint8_t> field(labels.size());

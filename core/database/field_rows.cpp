@@ -16,9 +16,7 @@ constexpr int kRow = kWidest + kLargestPool;  // bytes
 
 // The index checks of std::array and the references of std::min prevent vectorization.
 
-uint8_t lesser(uint8_t a, uint8_t b) {
-  return a < b ? a : b;
-}
+uint8_t lesser(uint8_t a, uint8_t b) { return a < b ? a : b; }
 
 /// The least of each `pool` neighbors along a row of kRow bytes, every one a cell.
 void pool_row(uint8_t* row, int pool, int cells, uint8_t* minima) {

@@ -14,9 +14,7 @@ namespace glovebench {
 /// `low` stores no fields but makes them during a look-up, and pools up to 8 x 8 pixels, not 4 x 4. Matches are
 /// equal.
 enum class DatabaseMemory { normal, low };
-constexpr auto names_of(DatabaseMemory) {
-  return std::to_array<std::string_view>({"normal", "low"});
-}
+constexpr auto names_of(DatabaseMemory) { return std::to_array<std::string_view>({"normal", "low"}); }
 
 struct WeightedRow {
   uint32_t row;

@@ -144,9 +144,7 @@ TinyImages queries(const Cascade& cascade, int number) {
   return query;
 }
 
-bool is_same_match(const Match& a, const Match& b) {
-  return a.entry == b.entry && a.error == b.error;
-}
+bool is_same_match(const Match& a, const Match& b) { return a.entry == b.entry && a.error == b.error; }
 
 const std::vector<Cascade> kCascades = {{{40, 3}}, {{8, 3}}, {{8, 500}, {40, 3}}, {{8, 20}, {40, 3}}};
 

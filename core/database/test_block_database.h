@@ -32,13 +32,9 @@ class BlockRenderer : public ViewRenderer {
 
 inline constexpr ViewConfig kSmallViews{.image_size = 64};
 
-inline PostureSet one_posture() {
-  return {"DB_one", {"open"}, {Posture::Zero()}};
-}
+inline PostureSet one_posture() { return {"DB_one", {"open"}, {Posture::Zero()}}; }
 
-inline std::unique_ptr<ViewRenderer> make_block_renderer() {
-  return std::make_unique<BlockRenderer>();
-}
+inline std::unique_ptr<ViewRenderer> make_block_renderer() { return std::make_unique<BlockRenderer>(); }
 
 inline Database small_database(DatabaseMemory memory = DatabaseMemory::normal,
                                std::span<const int> sizes = kTinySizes) {

@@ -19,9 +19,7 @@ inline Posture power_posture() {
   return posture;
 }
 
-inline PostureSet test_postures() {
-  return {"DB_test", {"open", "power"}, {Posture::Zero(), power_posture()}};
-}
+inline PostureSet test_postures() { return {"DB_test", {"open", "power"}, {Posture::Zero(), power_posture()}}; }
 
 inline const Database& test_database(DatabaseMemory memory = DatabaseMemory::normal) {
   const auto get = [](DatabaseMemory which) {

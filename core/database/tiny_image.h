@@ -35,9 +35,7 @@ LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square,
 LabelImage make_tiny_image(const LabelImage& labels, const Square& square, int size);
 
 /// Two labels per byte, the first in the low half.
-constexpr size_t packed_bytes(size_t pixels) {
-  return (pixels + 1) / 2;
-}
+constexpr size_t packed_bytes(size_t pixels) { return (pixels + 1) / 2; }
 /// Labels must be below 16.
 void pack_labels(const LabelImage& labels, std::span<uint8_t> packed);
 LabelImage unpack_labels(std::span<const uint8_t> packed, int width, int height);

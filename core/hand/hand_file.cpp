@@ -15,9 +15,7 @@ constexpr double kMostDeviation = 1, kMostShift_mm = 20, kMostResidual_mm = 1000
 constexpr int kMostViews = 1'000'000;
 
 /// The nearest number with six digits after the point.
-double rounded_to_file(double value) {
-  return std::round(value * 1e6) / 1e6;
-}
+double rounded_to_file(double value) { return std::round(value * 1e6) / 1e6; }
 
 void read_sizes(const JsonCursor& json, MeasuredHand& hand) {
   const auto& names = hand_size_names();
@@ -70,12 +68,8 @@ MeasuredHand parse_hand(std::string_view text, const std::string& where) {
   return hand_from_json(parse_json(text, where), where);
 }
 
-MeasuredHand load_hand(const std::string& path) {
-  return parse_hand(read_file(path, kLargestHandFile), path);
-}
+MeasuredHand load_hand(const std::string& path) { return parse_hand(read_file(path, kLargestHandFile), path); }
 
-std::string hand_text(const MeasuredHand& hand) {
-  return to_json(hand).dump(2) + "\n";
-}
+std::string hand_text(const MeasuredHand& hand) { return to_json(hand).dump(2) + "\n"; }
 
 }  // namespace glovebench

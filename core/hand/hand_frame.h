@@ -14,8 +14,6 @@ struct HandFrame {
 };
 
 enum class Appearance { glove, skin };
-constexpr auto names_of(Appearance) {
-  return std::to_array<std::string_view>({"glove", "skin"});
-}
+constexpr auto names_of(Appearance) { return std::to_array<std::string_view>({"glove", "skin"}); }
 
 }  // namespace glovebench

@@ -69,9 +69,7 @@ std::array<Screw, kAngleCount> angle_screws(const HandModel& model, const PosedH
   return screws;
 }
 
-uint32_t angles_of_body(int body) {
-  return bodies_of_hand().angles.at(body);
-}
+uint32_t angles_of_body(int body) { return bodies_of_hand().angles.at(body); }
 
 std::vector<BodyShares> body_shares(const HandModel& model) {
   std::vector<BodyShares> shares;

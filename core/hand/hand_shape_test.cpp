@@ -24,9 +24,7 @@ HandSizes ones_but(int size, double factor) {
 Eigen::Vector3d joint(const HandModel& model, int j) {
   return model.pose(Posture::Zero()).T_hand_joint[j].translation();
 }
-double bone(const HandModel& model, int j) {
-  return (joint(model, j + 1) - joint(model, j)).norm();
-}
+double bone(const HandModel& model, int j) { return (joint(model, j + 1) - joint(model, j)).norm(); }
 /// RMS distance from the bone of the vertices that hang on a joint for nine tenths or more.
 double girth(const HandModel& model, int j) {
   const PosedHand hand = model.pose(model.skeleton().bind_posture());

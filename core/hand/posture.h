@@ -52,8 +52,6 @@ Posture clamp_to_limits(const Posture& posture);
 double posture_distance(const Posture& a, const Posture& b);
 
 enum class Side { right, left };
-constexpr auto names_of(Side) {
-  return std::to_array<std::string_view>({"right", "left"});
-}
+constexpr auto names_of(Side) { return std::to_array<std::string_view>({"right", "left"}); }
 
 }  // namespace glovebench

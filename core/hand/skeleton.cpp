@@ -70,9 +70,7 @@ Decomposition decompose(const Eigen::Matrix3d& R) {
 
 }  // namespace
 
-const std::string& joint_name(int joint) {
-  return entries().at(joint).name;
-}
+const std::string& joint_name(int joint) { return entries().at(joint).name; }
 
 int joint_index(const std::string& webxr_name) {
   for (int j = 0; j < kJointCount; ++j) {

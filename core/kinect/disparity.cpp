@@ -28,9 +28,7 @@ DepthImage look_up_all(const Image<uint16_t>& raw, const DepthTable& depths) {
 
 }  // namespace
 
-float depth_from_disparity(uint16_t raw) {
-  return raw < kDepths.size() ? kDepths[raw] : 0.0f;
-}
+float depth_from_disparity(uint16_t raw) { return raw < kDepths.size() ? kDepths[raw] : 0.0f; }
 
 uint16_t disparity_from_depth(double z) {
   if (!(z > 0) || !std::isfinite(z)) return kNoDisparity;
@@ -52,9 +50,7 @@ uint16_t disparity_from_depth(double z, const OptionalLine& line) {
   return fits ? static_cast<uint16_t>(raw) : kNoDisparity;
 }
 
-DepthImage depth_from_disparity(const Image<uint16_t>& raw) {
-  return look_up_all(raw, kDepths);
-}
+DepthImage depth_from_disparity(const Image<uint16_t>& raw) { return look_up_all(raw, kDepths); }
 
 DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line, double z_max) {
   DepthTable depths = kDepths;

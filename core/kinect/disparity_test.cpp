@@ -77,9 +77,7 @@ TEST(Disparity, LeavesOutWhatIsTooFar) {
 }
 
 /// The driver's formula, as a line.
-DisparityLine line_of_the_driver() {
-  return {-1 / 345.489, 1089.41 / 345.489};
-}
+DisparityLine line_of_the_driver() { return {-1 / 345.489, 1089.41 / 345.489}; }
 
 TEST(DisparityLine, OfTheDriverIsTheFormula) {
   for (int raw = 0; raw <= 65535; ++raw) {

@@ -28,12 +28,8 @@ TimePairs popped(Pairer& pairer) {
 }
 
 /// The image is its time, in these tests.
-void depth(Pairer& pairer, int64_t time_us) {
-  pairer.push_depth(time_us, static_cast<int>(time_us));
-}
-void color(Pairer& pairer, int64_t time_us) {
-  pairer.push_color(time_us, static_cast<int>(time_us));
-}
+void depth(Pairer& pairer, int64_t time_us) { pairer.push_depth(time_us, static_cast<int>(time_us)); }
+void color(Pairer& pairer, int64_t time_us) { pairer.push_color(time_us, static_cast<int>(time_us)); }
 
 TEST(FramePairer, WaitsForTheColorThatMayBeNearer) {
   Pairer pairer;

@@ -63,9 +63,7 @@ class Recording : public testing::Test {
   RgbdCalibration calibration_ = synthetic_calibration();
 };
 
-bool mentions(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_F(Recording, PlaysWhatWasWritten) {
   const std::vector<DeviceFrame> frames = {frame(1'000'001, 1'004'000), frame(1'066'667, 1'070'123),

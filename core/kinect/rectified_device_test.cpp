@@ -18,9 +18,7 @@ RgbdCalibration with_lenses() {
 }
 
 /// What lies at (x, y) = (X / Z, Y / Z): a smooth field, different on each axis.
-double field(const Eigen::Vector2d& xy) {
-  return 120 + 90 * std::sin(7 * xy.x()) * std::cos(5 * xy.y());
-}
+double field(const Eigen::Vector2d& xy) { return 120 + 90 * std::sin(7 * xy.x()) * std::cos(5 * xy.y()); }
 
 /// A picture of the field through a lens: each pixel sees what its undistorted ray meets.
 template <typename T, typename Value>
@@ -37,9 +35,7 @@ Image<T> seen_through(const PinholeCamera& camera, const LensDistortion& lens, c
   return image;
 }
 
-uint16_t as_disparity(double value) {
-  return static_cast<uint16_t>(std::lround(4 * value));
-}
+uint16_t as_disparity(double value) { return static_cast<uint16_t>(std::lround(4 * value)); }
 Rgb as_color(double value) {
   const auto channel = static_cast<uint8_t>(std::lround(value));
   return {channel, static_cast<uint8_t>(255 - channel), 250};

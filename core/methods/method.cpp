@@ -15,8 +15,6 @@ std::span<const std::string_view> method_names() {
   return names;
 }
 
-const MethodEntry& find_method(std::string_view name) {
-  return find_in(methods(), name, "method", "name");
-}
+const MethodEntry& find_method(std::string_view name) { return find_in(methods(), name, "method", "name"); }
 
 }  // namespace glovebench

@@ -20,9 +20,7 @@ std::unique_ptr<Method> make(std::string_view name, TrackerConfig config = {}) {
 }
 
 /// The back of the hand, turned a little, so that no two axes are alike.
-Eigen::Isometry3d pose_before_camera(double x, double z) {
-  return render::test_pose({x, 0.01, z});
-}
+Eigen::Isometry3d pose_before_camera(double x, double z) { return render::test_pose({x, 0.01, z}); }
 
 TEST(Methods, are_named_after_their_files) {
   ASSERT_EQ(methods().size(), method_names().size());

@@ -13,9 +13,7 @@ namespace glovebench {
 
 /// Equal results. `plain` follows the paper line by line.
 enum class Implementation { plain, fast };
-constexpr auto names_of(Implementation) {
-  return std::to_array<std::string_view>({"plain", "fast"});
-}
+constexpr auto names_of(Implementation) { return std::to_array<std::string_view>({"plain", "fast"}); }
 
 struct IcpConfig {
   std::string algorithm = "horn";  ///< a name of `alignments`

@@ -45,15 +45,11 @@ HWY_INLINE Vectors operator*(Floats s, const Vectors& v) {
 HWY_INLINE Floats dot(const Vectors& a, const Vectors& b) {
   return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
 }
-HWY_INLINE Floats cross(Floats a, Floats b, Floats c, Floats d) {
-  return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
-}
+HWY_INLINE Floats cross(Floats a, Floats b, Floats c, Floats d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
 HWY_INLINE Vectors choose(Mask mask, const Vectors& yes, const Vectors& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
-HWY_INLINE Mask all(Mask a, Mask b, Mask c) {
-  return hn::And(a, hn::And(b, c));
-}
+HWY_INLINE Mask all(Mask a, Mask b, Mask c) { return hn::And(a, hn::And(b, c)); }
 
 /// Repeats `closest_on_triangle` exactly: other rounding could select another face.
 HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {

@@ -214,9 +214,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
   }
 }
 
-size_t LaneCount() {
-  return kLanes;
-}
+size_t LaneCount() { return kLanes; }
 
 }  // namespace glovebench::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -13,9 +13,7 @@ using render::test_pose;
 
 inline constexpr PinholeCamera kKinect{640, 480, 575.816, 575.816, 319.5, 239.5};
 
-inline PosedHand posed() {
-  return test_hand().pose(render::test_posture());
-}
+inline PosedHand posed() { return test_hand().pose(render::test_posture()); }
 
 inline RecycledVector<LabeledPoint> true_cloud(const Eigen::Isometry3d& T_camera_hand) {
   render::LabelRenderer renderer;

@@ -231,9 +231,7 @@ void run_streams(uint64_t first, int count) {
     EXPECT_GT(tally.interventions[kind], 0) << to_string(kind);
 }
 
-TEST(CommandGuardHostile, NothingThatHurtsLeaves) {
-  run_streams(1, 100);
-}
+TEST(CommandGuardHostile, NothingThatHurtsLeaves) { run_streams(1, 100); }
 
 TEST(CommandGuardHostile, NothingThatHurtsLeavesInManyInputs) {
   run_streams(1'000, kHasAddressSanitizer ? 100 : 2'000);

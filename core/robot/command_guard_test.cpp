@@ -20,9 +20,7 @@ constexpr int64_t kFrame_us = 66'667;
 constexpr double kFrame = 66'667e-6;  // s
 constexpr double kRounding = 1e-12;   // of sums and differences of numbers around 1
 
-double joint(const std::optional<RobotCommand>& command, ShadowJoint j) {
-  return command->targets->hand.joints[j];
-}
+double joint(const std::optional<RobotCommand>& command, ShadowJoint j) { return command->targets->hand.joints[j]; }
 
 /// Everything that a receiver sees, to the last bit.
 bool are_identical(const RobotCommand& a, const RobotCommand& b) {

@@ -27,19 +27,11 @@ void visit_fields(Limits& limits, Visit&& visit) {
   visit("stop_after_s", limits.stop_after_s);
 }
 
-void read_limit(double& value, const JsonCursor& json) {
-  value = json.number();
-}
-void read_limit(Eigen::Vector3d& value, const JsonCursor& json) {
-  value = json.vector3();
-}
+void read_limit(double& value, const JsonCursor& json) { value = json.number(); }
+void read_limit(Eigen::Vector3d& value, const JsonCursor& json) { value = json.vector3(); }
 
-json written_limit(double value) {
-  return value;
-}
-json written_limit(const Eigen::Vector3d& value) {
-  return {value.x(), value.y(), value.z()};
-}
+json written_limit(double value) { return value; }
+json written_limit(const Eigen::Vector3d& value) { return {value.x(), value.y(), value.z()}; }
 
 }  // namespace
 

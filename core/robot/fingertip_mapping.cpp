@@ -34,9 +34,7 @@ double limit(ShadowJoint joint, bool upper) {
   return radians_from_degrees(upper ? info.max_deg : info.min_deg);
 }
 
-bool moves_wrist(const ShadowActuatorInfo& info) {
-  return info.joint == kWRJ1 || info.joint == kWRJ2;
-}
+bool moves_wrist(const ShadowActuatorInfo& info) { return info.joint == kWRJ1 || info.joint == kWRJ2; }
 
 /// What the motors may add to their targets of the direct mapping.
 struct Motion {

@@ -141,8 +141,6 @@ std::string to_json_line(const RobotCommand& command) {
   return line.dump();
 }
 
-void JsonLinesSink::send(const RobotCommand& command) {
-  file_.append(to_json_line(command));
-}
+void JsonLinesSink::send(const RobotCommand& command) { file_.append(to_json_line(command)); }
 
 }  // namespace glovebench

@@ -11,21 +11,13 @@
 namespace glovebench {
 namespace {
 
-double right_angle() {
-  return radians_from_degrees(90);
-}
+double right_angle() { return radians_from_degrees(90); }
 
 /// Not more than the other half, also of a number that cannot be halved.
-double half(double motor) {
-  return std::min(motor / 2, motor - motor / 2);
-}
+double half(double motor) { return std::min(motor / 2, motor - motor / 2); }
 
-double lower_limit(ShadowJoint joint) {
-  return radians_from_degrees(shadow_joint_infos()[joint].min_deg);
-}
-double upper_limit(ShadowJoint joint) {
-  return radians_from_degrees(shadow_joint_infos()[joint].max_deg);
-}
+double lower_limit(ShadowJoint joint) { return radians_from_degrees(shadow_joint_infos()[joint].min_deg); }
+double upper_limit(ShadowJoint joint) { return radians_from_degrees(shadow_joint_infos()[joint].max_deg); }
 
 /// What the posture asks of a joint, rad; zero without a source.
 double wanted_angle(const Posture& posture, ShadowJoint joint) {

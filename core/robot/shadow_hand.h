@@ -14,9 +14,7 @@ enum class ShadowCoupling {
   series,  ///< J2 to 90 degrees, then J1
   even,
 };
-constexpr auto names_of(ShadowCoupling) {
-  return std::to_array<std::string_view>({"series", "even"});
-}
+constexpr auto names_of(ShadowCoupling) { return std::to_array<std::string_view>({"series", "even"}); }
 
 /// A finger's last two, rad.
 struct CoupledJoints {

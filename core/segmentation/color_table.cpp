@@ -165,13 +165,9 @@ ColorTable color_table_from_bytes(std::string_view bytes, const std::string& whe
   return ColorTable(std::vector<uint8_t>(cells.begin(), cells.end()), *space);
 }
 
-LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) {
-  return labels_of(mapped, table);
-}
+LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) { return labels_of(mapped, table); }
 
-LabelImage segment(const ColorImage& color, const ColorTable& table) {
-  return labels_of(color, table);
-}
+LabelImage segment(const ColorImage& color, const ColorTable& table) { return labels_of(color, table); }
 
 LabelImage majority_filter(const LabelImage& labels) {
   const PaddedLabels padded(labels);

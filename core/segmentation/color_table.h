@@ -26,9 +26,7 @@ constexpr Yuv yuv_from_rgb(const Rgb& rgb) {
 
 /// The paper uses YUV.
 enum class ColorSpace { yuv, rgb };
-constexpr auto names_of(ColorSpace) {
-  return std::to_array<std::string_view>({"yuv", "rgb"});
-}
+constexpr auto names_of(ColorSpace) { return std::to_array<std::string_view>({"yuv", "rgb"}); }
 
 /// Labels of 64x64x64 color cells.
 /// Paper: section III-A.

@@ -77,9 +77,7 @@ constexpr auto kMeanings = std::to_array<ConfigMeaning>({
 
 }  // namespace
 
-std::span<const ConfigMeaning> config_meanings() {
-  return kMeanings;
-}
+std::span<const ConfigMeaning> config_meanings() { return kMeanings; }
 
 const ConfigMeaning& config_meaning(std::string_view field) {
   const auto found = std::ranges::find(kMeanings, field, &ConfigMeaning::field);

@@ -8,9 +8,7 @@
 namespace glovebench {
 namespace {
 
-double rounded(double value) {
-  return std::round(value * 1e6) / 1e6 + 0.0;
-}
+double rounded(double value) { return std::round(value * 1e6) / 1e6 + 0.0; }
 
 nlohmann::ordered_json written_mm(const Eigen::Vector3d& p) {
   return {rounded(1000 * p.x()), rounded(1000 * p.y()), rounded(1000 * p.z())};

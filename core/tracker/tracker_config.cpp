@@ -79,15 +79,11 @@ void visit_fields(Config& c, Visit&& visit) {
   visit("smoothing", "forget_after_frames", c.smoothing.forget_after, Range{1, 1e6});
 }
 
-void read(double& value, const JsonCursor& json) {
-  value = json.number();
-}
+void read(double& value, const JsonCursor& json) { value = json.number(); }
 void read(int& value, const JsonCursor& json) {
   value = static_cast<int>(json.integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
 }
-void read(bool& value, const JsonCursor& json) {
-  value = json.boolean();
-}
+void read(bool& value, const JsonCursor& json) { value = json.boolean(); }
 template <Named Enum>
 void read(Enum& value, const JsonCursor& json) {
   value = json.one_of<Enum>();
@@ -101,25 +97,15 @@ void read(Cascade& value, const JsonCursor& json) {
   }
 }
 
-json written(double value) {
-  return value;
-}
-json written(int value) {
-  return value;
-}
-json written(bool value) {
-  return value;
-}
-json written(const std::string& value) {
-  return value;
-}
+json written(double value) { return value; }
+json written(int value) { return value; }
+json written(bool value) { return value; }
+json written(const std::string& value) { return value; }
 template <Named Enum>
 json written(Enum value) {
   return to_string(value);
 }
-json written(const Cascade& value) {
-  return to_string(value);
-}
+json written(const Cascade& value) { return to_string(value); }
 
 template <typename Value>
 void read(Value& value, const JsonCursor& json, const Range&) {
@@ -153,15 +139,9 @@ void check_range(const std::string& field, const Cascade& value, const Range&, s
   }
 }
 
-std::string range_text(double, const Range& range) {
-  return range.text();
-}
-std::string range_text(int, const Range& range) {
-  return range.text();
-}
-std::string range_text(bool, const Range&) {
-  return "true or false";
-}
+std::string range_text(double, const Range& range) { return range.text(); }
+std::string range_text(int, const Range& range) { return range.text(); }
+std::string range_text(bool, const Range&) { return "true or false"; }
 template <Named Enum>
 std::string range_text(Enum, const Range&) {
   return known_names<Enum>();

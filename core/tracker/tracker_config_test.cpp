@@ -16,9 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::ThrowsMessage;
 
-TrackerConfig read(const json& j) {
-  return config_from_json(j, {}, "config.json");
-}
+TrackerConfig read(const json& j) { return config_from_json(j, {}, "config.json"); }
 
 void expect_refused(const json& j, const std::vector<std::string>& said) {
   try {

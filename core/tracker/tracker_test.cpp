@@ -15,9 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TrackStatus status_of(const DeviceFrame& frame) {
-  return make_tracker().track(frame).status;
-}
+TrackStatus status_of(const DeviceFrame& frame) { return make_tracker().track(frame).status; }
 
 TEST(Tracker, tracks_the_hand) {
   for (const Posture& posture : {Posture(Posture::Zero()), power_posture()}) {

@@ -179,9 +179,7 @@ std::unique_ptr<ArmSolver> require_arm_solver(const std::string& where, const st
   return solver;
 }
 
-Eigen::Isometry3d MountingFlag::T_flange_wrist() const {
-  return transform.value_or(default_T_flange_wrist());
-}
+Eigen::Isometry3d MountingFlag::T_flange_wrist() const { return transform.value_or(default_T_flange_wrist()); }
 
 RobotSetup RobotFlags::setup(Workbench& workbench) const {
   RobotSetup setup;

@@ -68,9 +68,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-std::string one_line(const std::string& text) {
-  return replaced(text, "\n", " ");
-}
+std::string one_line(const std::string& text) { return replaced(text, "\n", " "); }
 
 /// Text in backticks becomes bold.
 std::string roff(const std::string& text) {
@@ -81,9 +79,7 @@ std::string roff(const std::string& text) {
 }
 
 /// Lets lines break after commas, which have no spaces in lists of values.
-std::string breakable(const std::string& text) {
-  return replaced(text, ",", ",\\:");
-}
+std::string breakable(const std::string& text) { return replaced(text, ",", ",\\:"); }
 
 std::string roff_option(const OptionText& option) {
   return fmt::format(".TP\n\\fB{}\\fR {}\n{}\n", roff(fmt::format("{}", fmt::join(option.names, ", "))),

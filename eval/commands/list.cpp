@@ -76,9 +76,7 @@ void list_formats() {
     print_entry(fmt::format("{:<16} {:<10} ", format.name, format.ending), format.description);
 }
 
-void list_metrics() {
-  fmt::print("{}", reports::glossary_text(terminal_columns()));
-}
+void list_metrics() { fmt::print("{}", reports::glossary_text(terminal_columns())); }
 
 void list_subjects() {
   fmt::print(

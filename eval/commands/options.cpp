@@ -266,13 +266,9 @@ template Option Command::option(const std::string&, std::vector<double>&, const 
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&) const;
 template Option Command::option(const std::string&, std::optional<Eigen::Isometry3d>&, const std::string&) const;
 
-bool Command::given(const std::string& name) const {
-  return app_->count(name) > 0;
-}
+bool Command::given(const std::string& name) const { return app_->count(name) > 0; }
 
-CommandText Command::text() const {
-  return text_of(std::as_const(*app_));
-}
+CommandText Command::text() const { return text_of(std::as_const(*app_)); }
 
 void Command::set_action(const Action& action) const {
   if (app_->get_require_subcommand_min() > 0) app_->require_subcommand(0, 1);

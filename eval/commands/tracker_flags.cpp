@@ -94,9 +94,7 @@ void TrackerChoices::choose(CommonFlags& common) const {
     if (!(this->*flag.values).empty()) common.*flag.value = (this->*flag.values).front();
 }
 
-bool TrackerChoices::are_several() const {
-  return several_of(*this) != nullptr;
-}
+bool TrackerChoices::are_several() const { return several_of(*this) != nullptr; }
 
 std::vector<NamedTracker> TrackerChoices::trackers(const CommonFlags& common) const {
   const TrackerFlag* flag = several_of(*this);

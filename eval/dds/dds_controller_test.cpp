@@ -239,13 +239,9 @@ TEST_F(DdsController, IsNotSpokenToAfterItsDriverFellSilent) {
   EXPECT_EQ(stop(listener, SIGTERM).out, "ready\n");
 }
 
-TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHandWhenItHasStopped) {
-  expect_asked_again(0.5);
-}
+TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHandWhenItHasStopped) { expect_asked_again(0.5); }
 
-TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHandWhileItHolds) {
-  expect_asked_again(60);
-}
+TEST_F(DdsController, IsAskedAgainWhereTheRobotStandsAfterALostHandWhileItHolds) { expect_asked_again(60); }
 
 TEST_F(DdsController, HearsABurstOfFramesNoFasterThanTheClockOfTheWall) {
   const StartedProgram driver = drive("measured", hand_joint_names(), standing());

@@ -20,12 +20,8 @@ using testing::IsEmpty;
 
 constexpr int64_t kDay = 86'400;
 
-int64_t now_s() {
-  return system_us() / 1'000'000;
-}
-Validity valid_now() {
-  return {now_s() - kDay, now_s() + kDay};
-}
+int64_t now_s() { return system_us() / 1'000'000; }
+Validity valid_now() { return {now_s() - kDay, now_s() + kDay}; }
 
 class DdsSecurity : public RobotServer {
  protected:

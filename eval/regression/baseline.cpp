@@ -130,9 +130,7 @@ Provenance parse_provenance(const std::string& text, const std::string& where) {
   return {json["results_hash"].text(), reports::stage_times_from(json["times"])};
 }
 
-std::string default_baseline_folder(const std::string& suite) {
-  return "ci/baselines/" + suite;
-}
+std::string default_baseline_folder(const std::string& suite) { return "ci/baselines/" + suite; }
 
 FinishedRun load_finished_run(const std::string& folder_or_file) {
   const std::string folder = folder_of(folder_or_file);

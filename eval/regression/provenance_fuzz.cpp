@@ -3,8 +3,6 @@
 
 namespace glovebench {
 
-void provenance_fuzz(std::string_view bytes) {
-  eval::parse_provenance(std::string(bytes), "provenance.json");
-}
+void provenance_fuzz(std::string_view bytes) { eval::parse_provenance(std::string(bytes), "provenance.json"); }
 
 }  // namespace glovebench

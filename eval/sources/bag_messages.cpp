@@ -115,8 +115,6 @@ PackedChunk bag_chunk_at(std::string_view file, uint64_t position, const std::st
 
 }  // namespace
 
-MessageFormat bag_messages() {
-  return {"bag", kBagBegin, for_each_bag_message, bag_chunk_at};
-}
+MessageFormat bag_messages() { return {"bag", kBagBegin, for_each_bag_message, bag_chunk_at}; }
 
 }  // namespace glovebench::eval

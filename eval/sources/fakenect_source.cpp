@@ -16,8 +16,6 @@ TrackSource open_fakenect(const std::string& folder, const SourceFlags& flags, b
 
 }  // namespace
 
-SourceKind fakenect_source() {
-  return {"fakenect", "fakenect:FOLDER", "a Kinect's recording", open_fakenect};
-}
+SourceKind fakenect_source() { return {"fakenect", "fakenect:FOLDER", "a Kinect's recording", open_fakenect}; }
 
 }  // namespace glovebench::eval

@@ -127,8 +127,6 @@ PackedChunk mcap_chunk_at(std::string_view file, uint64_t position, const std::s
 
 }  // namespace
 
-MessageFormat mcap_messages() {
-  return {"mcap", kMcapBegin, for_each_mcap_message, mcap_chunk_at};
-}
+MessageFormat mcap_messages() { return {"mcap", kMcapBegin, for_each_mcap_message, mcap_chunk_at}; }
 
 }  // namespace glovebench::eval

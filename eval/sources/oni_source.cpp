@@ -148,12 +148,8 @@ TrackSource open_oni_source(const std::string& path, const SourceFlags& flags, b
 
 }  // namespace
 
-OniTimes parse_oni_times(std::string_view file, const std::string& where) {
-  return OniWalk(file, where).times();
-}
+OniTimes parse_oni_times(std::string_view file, const std::string& where) { return OniWalk(file, where).times(); }
 
-SourceKind oni_source() {
-  return {"oni", "oni:FILE", "of OpenNI2's recorder", open_oni_source};
-}
+SourceKind oni_source() { return {"oni", "oni:FILE", "of OpenNI2's recorder", open_oni_source}; }
 
 }  // namespace glovebench::eval

@@ -135,9 +135,7 @@ TEST_F(OniSource, HasTheImagesOfTheRecording) {
   expect_test_images(opened(recorded({"100um"})), 10'000);
 }
 
-TEST_F(OniSource, TurnsMirroredImagesBack) {
-  expect_test_images(opened(recorded({"mirrored"})), 1000);
-}
+TEST_F(OniSource, TurnsMirroredImagesBack) { expect_test_images(opened(recorded({"mirrored"})), 1000); }
 
 TEST_F(OniSource, HasTheFieldOfViewAsCalibration) {
   const TrackSource source = opened(recorded());

@@ -3,8 +3,6 @@
 
 namespace glovebench {
 
-void oni_times_fuzz(std::string_view bytes) {
-  eval::parse_oni_times(bytes, "a.oni");
-}
+void oni_times_fuzz(std::string_view bytes) { eval::parse_oni_times(bytes, "a.oni"); }
 
 }  // namespace glovebench

@@ -105,8 +105,6 @@ std::vector<TumImage> parse_tum_list(std::string_view text, const std::string& w
   return images;
 }
 
-SourceKind tum_source() {
-  return {"tum", "tum:FOLDER", "like the TUM RGB-D benchmark", open_tum};
-}
+SourceKind tum_source() { return {"tum", "tum:FOLDER", "like the TUM RGB-D benchmark", open_tum}; }
 
 }  // namespace glovebench::eval

@@ -87,9 +87,7 @@ TEST(AblationsLong, changes_are_against_the_first_row) {
   EXPECT_LT(number_in(table, 2, "covered_percent"), number_in(table, 3, "covered_percent"));
 }
 
-TEST(AblationsLong, do_not_depend_on_threads) {
-  EXPECT_EQ(measure_few(1), measure_few(2));
-}
+TEST(AblationsLong, do_not_depend_on_threads) { EXPECT_EQ(measure_few(1), measure_few(2)); }
 
 TEST(AblationsLong, measures_have_their_names_and_few_frames_no_latency) {
   Workbench workbench(test_workbench());

@@ -187,9 +187,7 @@ Table empty_deviations_table() {
 
 }  // namespace
 
-std::span<const Deviation> deviations() {
-  return kDeviations;
-}
+std::span<const Deviation> deviations() { return kDeviations; }
 
 Table deviations_table(const Runs& runs) {
   Table table = empty_deviations_table();

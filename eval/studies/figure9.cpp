@@ -87,9 +87,7 @@ void add_errors(Table& table, TruthKind truth, const std::string& database, cons
   }
 }
 
-std::optional<double> median(const std::vector<double>& values) {
-  return reports::percentile(values, 0.5);
-}
+std::optional<double> median(const std::vector<double>& values) { return reports::percentile(values, 0.5); }
 
 void add_times(Table& table, Implementation implementation, const Runs& runs) {
   for (const int factor : kFactors) {

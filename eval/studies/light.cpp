@@ -67,16 +67,10 @@ Table empty_tracking_table() {
           {}};
 }
 
-double wrong_percent(const LabelErrors& errors) {
-  return 100 * errors.wrong_share();
-}
-double missed_percent(const LabelErrors& errors) {
-  return 100 * errors.missed_share();
-}
+double wrong_percent(const LabelErrors& errors) { return 100 * errors.wrong_share(); }
+double missed_percent(const LabelErrors& errors) { return 100 * errors.missed_share(); }
 
-double mislabeled_percent(const LabelErrors& errors) {
-  return 100 * errors.mislabeled_share();
-}
+double mislabeled_percent(const LabelErrors& errors) { return 100 * errors.mislabeled_share(); }
 
 /// Over the held-out lightings, which come first.
 double mean_over(std::span<const LabelErrors> errors, double (*percent)(const LabelErrors&)) {

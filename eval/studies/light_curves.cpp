@@ -83,12 +83,8 @@ std::optional<ColorTable> recalibrated(Workbench& workbench, int subject, const 
   }
 }
 
-LightPoint strength_of(double strength) {
-  return {.value = strength, .lighting = {.strength = strength}};
-}
-LightPoint temperature_of(double kelvin) {
-  return {.value = kelvin, .lighting = {.temperature_k = kelvin}};
-}
+LightPoint strength_of(double strength) { return {.value = strength, .lighting = {.strength = strength}}; }
+LightPoint temperature_of(double kelvin) { return {.value = kelvin, .lighting = {.temperature_k = kelvin}}; }
 LightPoint green_gain_of(double gain) {
   return {.value = gain, .lighting = {}, .white_balance = Eigen::Vector3d(1, gain, 1)};
 }

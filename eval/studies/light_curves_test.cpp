@@ -31,9 +31,7 @@ TEST(LightCurves, vary_one_thing_each_and_pass_the_default) {
   }
 }
 
-double right_percent(const LightWay& way) {
-  return way.errors ? 100 - 100 * way.errors->mislabeled_share() : 0;
-}
+double right_percent(const LightWay& way) { return way.errors ? 100 - 100 * way.errors->mislabeled_share() : 0; }
 
 /// [own table, majority, surface majority, recalibrated, with surface majority, best table], all printed.
 std::vector<double> print_point(Workbench& workbench, int subject, const LightPoint& point) {

@@ -37,9 +37,7 @@ TEST(MonocularStudyLong, depth_tells_the_distance_that_the_color_image_does_not)
   EXPECT_EQ(*result.measures[0].value, number(0, "depth_error_cm"));
 }
 
-TEST(MonocularStudyLong, does_not_depend_on_threads) {
-  EXPECT_EQ(tested_monocular(1), tested_monocular(2));
-}
+TEST(MonocularStudyLong, does_not_depend_on_threads) { EXPECT_EQ(tested_monocular(1), tested_monocular(2)); }
 
 }  // namespace
 }  // namespace glovebench::eval

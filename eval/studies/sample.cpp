@@ -66,9 +66,7 @@ Sample combined(const Sample& a, const Sample& b, const Combine& combine) {
 
 }  // namespace
 
-std::optional<double> mean(const Sample& sample) {
-  return mean_of(sample, everything(sample));
-}
+std::optional<double> mean(const Sample& sample) { return mean_of(sample, everything(sample)); }
 
 Estimated estimate(std::span<const Sample> samples,
                    const std::function<std::optional<double>(std::span<const double> means)>& combine) {

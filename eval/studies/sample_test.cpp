@@ -6,9 +6,7 @@ namespace glovebench::eval {
 namespace {
 
 /// 40 frames of one movement and one seed, enough blocks for an interval.
-Sample constant(double value) {
-  return {{std::vector<std::optional<double>>(90, value)}};
-}
+Sample constant(double value) { return {{std::vector<std::optional<double>>(90, value)}}; }
 Sample ramp() {
   Sample sample = constant(0);
   for (size_t f = 0; f < sample[0][0].size(); ++f) sample[0][0][f] = static_cast<double>(f);

@@ -75,9 +75,7 @@ const Study& study(std::string_view name) {
   throw Error("study", "name", std::string(name), one_of(known, name));
 }
 
-FrameRange frames_of(const StudyOptions& options) {
-  return options.quick ? kQuickFrames : FrameRange{};
-}
+FrameRange frames_of(const StudyOptions& options) { return options.quick ? kQuickFrames : FrameRange{}; }
 
 std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<Setting>& settings,
                                  const std::vector<std::string>& databases, reports::TruthKind truth,

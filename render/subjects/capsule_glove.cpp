@@ -34,9 +34,7 @@ double lattice_value(uint64_t seed, const Eigen::Vector3i& cell) {
   return static_cast<double>(h >> 11) * 0x1.0p-52 - 1;
 }
 
-double ramp(double along) {
-  return std::clamp(0.5 + along / kRampLength, 0.0, 1.0);
-}
+double ramp(double along) { return std::clamp(0.5 + along / kRampLength, 0.0, 1.0); }
 
 }  // namespace
 

@@ -29,23 +29,15 @@ constexpr std::array<double, 4> kDistalGirth_mm = {57.4, 57.8, 53.8, 49.2};
 constexpr double kWristBreadth_mm = 65.8;
 constexpr double kWristGirth_mm = 174.3;
 
-double truncated_normal(RandomStream& random) {
-  return std::clamp(random.normal(), -2.0, 2.0);
-}
+double truncated_normal(RandomStream& random) { return std::clamp(random.normal(), -2.0, 2.0); }
 
 }  // namespace
 
-Published published_length(bool woman) {
-  return woman ? Published{181, 9.5} : Published{193, 10};
-}
+Published published_length(bool woman) { return woman ? Published{181, 9.5} : Published{193, 10}; }
 
-Published published_breadth(bool woman) {
-  return woman ? Published{78, 4} : Published{88, 4.4};
-}
+Published published_breadth(bool woman) { return woman ? Published{78, 4} : Published{88, 4.4}; }
 
-Published published_segment(int finger, int segment) {
-  return kSegments.at(finger).at(segment);
-}
+Published published_segment(int finger, int segment) { return kSegments.at(finger).at(segment); }
 
 HandDimensions draw_dimensions(uint64_t seed) {
   RandomStream random(seed, "capsule hand", 0, "dimensions");

@@ -34,8 +34,6 @@ Subject make_subject(int number, const std::string& mesh_path, std::shared_ptr<c
                                              tracker_hand->skeleton());
 }
 
-Shader shader_of(int subject) {
-  return subject == 1 ? Shader::first_subject : Shader::second_subject;
-}
+Shader shader_of(int subject) { return subject == 1 ? Shader::first_subject : Shader::second_subject; }
 
 }  // namespace glovebench::render

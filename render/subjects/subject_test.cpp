@@ -18,9 +18,7 @@ std::shared_ptr<const HandModel> tracker_hand() {
   return {&test_hand(), [](const HandModel*) {}};
 }
 
-Subject subject(int number) {
-  return make_subject(number, build_paths::hand_mesh(), tracker_hand());
-}
+Subject subject(int number) { return make_subject(number, build_paths::hand_mesh(), tracker_hand()); }
 
 TEST(Subject, TheFirstTwoAreTheTrackersMesh) {
   EXPECT_EQ(subject(1).hash(), test_hand().hash());

@@ -9,9 +9,7 @@
 
 namespace glovebench::reports {
 
-bool holds(const Rule& rule, double value) {
-  return meets(rule, value, value);
-}
+bool holds(const Rule& rule, double value) { return meets(rule, value, value); }
 
 bool meets(const Rule& rule, double low, double high) {
   check(low <= high, "an interval begins before it ends");
@@ -66,9 +64,7 @@ const ClaimSet& claim_set() {
   return set;
 }
 
-const std::vector<Claim>& claims() {
-  return claim_set().claims;
-}
+const std::vector<Claim>& claims() { return claim_set().claims; }
 
 namespace {
 

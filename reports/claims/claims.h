@@ -29,9 +29,7 @@ std::string to_string(const Rule& rule);
 
 /// Reproduction: the paper's experiment. Consistency: the paper's number is plausible.
 enum class ClaimKind { reproduction, consistency };
-constexpr auto names_of(ClaimKind) {
-  return std::to_array<std::string_view>({"reproduction", "consistency"});
-}
+constexpr auto names_of(ClaimKind) { return std::to_array<std::string_view>({"reproduction", "consistency"}); }
 
 /// What the paper says, and what a run must measure.
 struct ClaimDefinition {

@@ -36,9 +36,7 @@ std::string ids_of(const std::vector<ClaimVerdict>& verdicts, ClaimOutcome outco
   return fmt::format("{}", fmt::join(ids, ", "));
 }
 
-std::string quoted(const std::string& quote) {
-  return quote.empty() ? "" : fmt::format("\"{}\"", quote);
-}
+std::string quoted(const std::string& quote) { return quote.empty() ? "" : fmt::format("\"{}\"", quote); }
 
 /// Quote and number; "-": neither.
 std::string paper_text(const ClaimDefinition& claim) {
@@ -59,9 +57,7 @@ Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
   return table;
 }
 
-Json or_null(const std::optional<std::string>& text) {
-  return text ? Json(*text) : Json();
-}
+Json or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
 
 /// As in claims.json, but a rule is in words.
 Json field_json(const ClaimDefinition& definition, const std::string& field) {

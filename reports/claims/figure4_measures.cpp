@@ -89,9 +89,7 @@ Measure measure(const std::string& name, const std::string& unit, const Groups& 
   return measure;
 }
 
-bool is_number(const std::optional<double>& mean) {
-  return mean && std::isfinite(*mean);
-}
+bool is_number(const std::optional<double>& mean) { return mean && std::isfinite(*mean); }
 
 /// Empty if a mean is missing or not finite, since it could be the largest.
 std::optional<double> largest_position_error(const MeansOf& means_of) {
@@ -105,15 +103,9 @@ std::optional<double> largest_position_error(const MeansOf& means_of) {
   return largest;
 }
 
-bool specific_is_best(const Means& means) {
-  return *means[0] < *means[1] && *means[0] < *means[2];
-}
-bool large_is_worst(const Means& means) {
-  return *means[2] > *means[0] && *means[2] > *means[1];
-}
-bool is_ordered(const Means& means) {
-  return specific_is_best(means) && large_is_worst(means);
-}
+bool specific_is_best(const Means& means) { return *means[0] < *means[1] && *means[0] < *means[2]; }
+bool large_is_worst(const Means& means) { return *means[2] > *means[0] && *means[2] > *means[1]; }
+bool is_ordered(const Means& means) { return specific_is_best(means) && large_is_worst(means); }
 
 /// In how many of 15 pairs (trajectory, error) the condition holds; empty if a mean is missing or not finite.
 Statistic count_of(bool (*condition)(const Means&)) {

@@ -32,9 +32,7 @@ Rule read_rule(const JsonCursor& json) {
   return rule;
 }
 
-ClaimKind read_kind(const JsonCursor& json) {
-  return json.one_of<ClaimKind>();
-}
+ClaimKind read_kind(const JsonCursor& json) { return json.one_of<ClaimKind>(); }
 
 /// One line that is not empty.
 std::string read_sentence(const JsonCursor& json) {
@@ -67,12 +65,8 @@ constexpr Field field(std::string_view name) {
           [](const ClaimDefinition& a, const ClaimDefinition& b) { return a.*member == b.*member; }};
 }
 
-std::string read_text(const JsonCursor& json) {
-  return json.text();
-}
-bool read_boolean(const JsonCursor& json) {
-  return json.boolean();
-}
+std::string read_text(const JsonCursor& json) { return json.text(); }
+bool read_boolean(const JsonCursor& json) { return json.boolean(); }
 
 /// The first ten are in a claim's first entry. The others were added later and have defaults.
 constexpr size_t kFirstFields = 10;

@@ -65,9 +65,7 @@ TEST(Judge, WhatWasNotRunOrHasNoValue) {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-Measure without_interval(std::optional<double> value) {
-  return {"m", "mm", value, {}, false};
-}
+Measure without_interval(std::optional<double> value) { return {"m", "mm", value, {}, false}; }
 
 /// A measure and its outcome for the rule "below 10".
 struct Case {

@@ -144,9 +144,7 @@ void check_config(const CompareConfig& config) {
 
 }  // namespace
 
-int row_count(size_t metrics, size_t experiments) {
-  return static_cast<int>(metrics * (experiments + 1));
-}
+int row_count(size_t metrics, size_t experiments) { return static_cast<int>(metrics * (experiments + 1)); }
 
 std::vector<ComparisonRow> comparison_rows(const Pairing& pairing, const NoiseFloor* floor,
                                            const CompareConfig& config, Draws& draws) {

@@ -166,9 +166,7 @@ std::string enough_text(const ComparisonRow& row, const CompareConfig& config) {
   return fmt::format("{} frames of all seeds, or {:.0f} movements", row.enough_frames, movements);
 }
 
-std::string number_text(const std::optional<double>& value) {
-  return value ? formatted(*value) : "-";
-}
+std::string number_text(const std::optional<double>& value) { return value ? formatted(*value) : "-"; }
 
 std::string signed_number_text(const std::optional<double>& value) {
   return value ? formatted_signed(*value) : "-";

@@ -13,17 +13,11 @@ constexpr double kNegligible = 1e-6;
 /// So many minimum effects stop a change whatever the interval says; of a share one does.
 constexpr double kSurely = 2;
 
-bool reaches(double difference, double minimum_effect) {
-  return difference >= minimum_effect - kNegligible;
-}
+bool reaches(double difference, double minimum_effect) { return difference >= minimum_effect - kNegligible; }
 
-double sure_effect(const ComparisonRow& row) {
-  return (row.metric->is_share() ? 1 : kSurely) * row.minimum_effect;
-}
+double sure_effect(const ComparisonRow& row) { return (row.metric->is_share() ? 1 : kSurely) * row.minimum_effect; }
 
-std::string number(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : "-";
-}
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "-"; }
 
 /// "0.52 mm [0.31, 0.73] (2.98 -> 3.50), minimum effect 0.12"
 std::string numbers(const ComparisonRow& row) {
@@ -33,9 +27,7 @@ std::string numbers(const ComparisonRow& row) {
                      number(row.baseline), number(row.candidate), row.minimum_effect);
 }
 
-std::string name(const ComparisonRow& row) {
-  return fmt::format("{}, {}", row.experiment, row.metric->key);
-}
+std::string name(const ComparisonRow& row) { return fmt::format("{}, {}", row.experiment, row.metric->key); }
 
 std::string failure_line(const SpeedRow& row) {
   return fmt::format(
@@ -82,9 +74,7 @@ bool stops(const ComparisonRow& row) {
   return row.difference && reaches(*row.difference, sure_effect(row));
 }
 
-bool is_worse_in_places(const ComparisonRow& row) {
-  return stops(row) && row.verdict != Verdict::worse;
-}
+bool is_worse_in_places(const ComparisonRow& row) { return stops(row) && row.verdict != Verdict::worse; }
 
 double missing_to_stop(const ComparisonRow& row) {
   double enough = sure_effect(row);

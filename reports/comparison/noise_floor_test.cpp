@@ -152,9 +152,7 @@ NoiseFloor small_floor() {
           {{"all", "position_error_mm", 0.025, 0.125, 0.25}, {"Tr1", "uncovered_percent", 0, 0.5, 1}}};
 }
 
-NoiseFloor read_text(const std::string& text) {
-  return parse_noise_floor(text, "noise_floor.json");
-}
+NoiseFloor read_text(const std::string& text) { return parse_noise_floor(text, "noise_floor.json"); }
 
 TEST(NoiseFloor, RoundTrip) {
   const std::string path = test_folder() + "/noise_floor.json";

@@ -66,9 +66,7 @@ const Eigen::MatrixXd& Draws::of_blocks(const std::string& trajectory, int block
   return draw(trajectory, "blocks", blocks);
 }
 
-const Eigen::MatrixXd& Draws::of_seeds(int seeds) {
-  return draw("all trajectories", "seeds", seeds);
-}
+const Eigen::MatrixXd& Draws::of_seeds(int seeds) { return draw("all trajectories", "seeds", seeds); }
 
 const Eigen::MatrixXd& Draws::draw(const std::string& sequence, const std::string& purpose, int count) {
   Eigen::MatrixXd& drawn = drawn_[{purpose + "/" + sequence, count}];

@@ -19,9 +19,7 @@ struct NamedResult {
 
 /// How compared experiments may differ.
 enum class Across { noise, subject, frames };
-constexpr auto names_of(Across) {
-  return std::to_array<std::string_view>({"noise", "subject", "frames"});
-}
+constexpr auto names_of(Across) { return std::to_array<std::string_view>({"noise", "subject", "frames"}); }
 
 struct PairingOptions {
   /// Pairs noise seeds in order; counts must be equal. Otherwise seeds must be equal.

@@ -25,9 +25,7 @@ constexpr double kLeastRatio = 1e-3, kLargestRatio = 1e6;
 /// CPU seconds per iteration, by repetition.
 using Repetitions = std::map<int64_t, double>;
 
-bool is_ratio(double value) {
-  return value >= kLeastRatio && value <= kLargestRatio;
-}
+bool is_ratio(double value) { return value >= kLeastRatio && value <= kLargestRatio; }
 
 /// Names appear in one-line messages.
 std::string read_benchmark_name(const JsonCursor& json) {
@@ -162,9 +160,7 @@ std::string speed_json(const std::vector<SpeedRatio>& ratios) {
   return format_json(json);
 }
 
-double speed_limit(double baseline) {
-  return std::max(baseline / 2, std::sqrt(baseline));
-}
+double speed_limit(double baseline) { return std::max(baseline / 2, std::sqrt(baseline)); }
 
 std::vector<SpeedRow> compare_speed(const std::vector<SpeedRatio>& baseline,
                                     const std::vector<SpeedRatio>& candidate, const std::string& candidate_name) {

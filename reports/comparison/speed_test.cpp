@@ -48,9 +48,7 @@ json benchmark_file() {
   return {{"context", {{"host_name", "somewhere"}, {"num_cpus", 2}}}, {"benchmarks", runs}};
 }
 
-std::vector<SpeedRatio> parsed(const json& file) {
-  return parse_speed_ratios(file.dump(), "bench.json");
-}
+std::vector<SpeedRatio> parsed(const json& file) { return parse_speed_ratios(file.dump(), "bench.json"); }
 
 std::string speed_error(const std::string& text) {
   try {

@@ -39,9 +39,7 @@ PointPairs vertex_pairs(const MeasuredFrame& frame) {
           vertices_in_camera(frame.truth.T_camera_hand, frame.true_hand)};
 }
 
-double mean_distance_mm(const Matrix3Xd& a, const Matrix3Xd& b) {
-  return 1000 * (a - b).colwise().norm().mean();
-}
+double mean_distance_mm(const Matrix3Xd& a, const Matrix3Xd& b) { return 1000 * (a - b).colwise().norm().mean(); }
 
 /// After the estimate is scaled about its root and moved to the true root.
 double error_at_root_mm(const PointPairs& pairs, const Vector3d& root, const Vector3d& true_root, double scale) {

@@ -15,9 +15,7 @@ namespace measured_example {
 
 using Json = nlohmann::ordered_json;
 
-inline Json row_of(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
+inline Json row_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 inline Json joints_json(const Eigen::Isometry3d& T_camera_hand, const JointPoses& T_hand_joint) {
   Json rows = Json::array();

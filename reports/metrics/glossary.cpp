@@ -17,9 +17,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOtherKey
      {"posture_change_deg", "posture_rms_deg"},
      {"rotation_change_deg", "rotation_error_deg"}}};
 
-std::string anchor_of(const Metric& metric) {
-  return fmt::format("metric-{}", metric.key);
-}
+std::string anchor_of(const Metric& metric) { return fmt::format("metric-{}", metric.key); }
 
 std::string link_of(const Column& column) {
   const Metric* metric = metric_in(column);

@@ -61,9 +61,7 @@ Chosen hidden_angles(const std::array<int, kPatchCount>& visible_pixels) {
   return hidden;
 }
 
-Posture difference(const MeasuredFrame& frame) {
-  return frame.estimate.posture - frame.truth.posture;
-}
+Posture difference(const MeasuredFrame& frame) { return frame.estimate.posture - frame.truth.posture; }
 
 }  // namespace
 

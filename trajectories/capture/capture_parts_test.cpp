@@ -22,9 +22,7 @@ const HandModel& model() {
   static const HandModel hand = HandModel::load(build_paths::hand_mesh());
   return hand;
 }
-CaptureHand skin_hand() {
-  return {model().skeleton(), place_markers(skin_names(), {}, model(), "capture")};
-}
+CaptureHand skin_hand() { return {model().skeleton(), place_markers(skin_names(), {}, model(), "capture")}; }
 HandState some_state() {
   HandState state;
   for (int a = 0; a < kAngleCount; ++a) state.posture[a] = 0.1 + 0.04 * (a % 7);

@@ -78,9 +78,7 @@ Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b
   return T;
 }
 
-bool is_end_joint(int angle) {
-  return angle >= kIndexDipFlexion && (angle - kIndexDipFlexion) % 4 == 0;
-}
+bool is_end_joint(int angle) { return angle >= kIndexDipFlexion && (angle - kIndexDipFlexion) % 4 == 0; }
 
 void bridge_angle(int a, const std::vector<Observability>& shown, const std::vector<double>& times_s,
                   Bridged& result) {

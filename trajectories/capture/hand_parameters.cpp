@@ -16,9 +16,7 @@ bool has_joint_center(const CaptureHand& hand, int joint) {
                              [&](const PlacedMarker& m) { return m.joint == joint && m.is_joint_center(); });
 }
 
-bool is_segment_end(int joint) {
-  return joint_parents()[static_cast<size_t>(joint)] >= 0;
-}
+bool is_segment_end(int joint) { return joint_parents()[static_cast<size_t>(joint)] >= 0; }
 
 constexpr int kMiddleMcp = 11, kIndexMcp = 6, kLittleMcp = 21;
 

@@ -85,9 +85,7 @@ std::string names_of(const std::array<bool, kAngleCount>& angles) {
   return names;
 }
 
-std::string millimetres(const std::optional<double>& metres) {
-  return metres ? fixed(1000 * *metres, 2) : "";
-}
+std::string millimetres(const std::optional<double>& metres) { return metres ? fixed(1000 * *metres, 2) : ""; }
 
 }  // namespace
 

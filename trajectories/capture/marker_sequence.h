@@ -24,12 +24,8 @@ inline constexpr size_t kMaxMarkers = 200;
 inline constexpr size_t kMaxMarkerFrames = 432'000;
 inline constexpr double kMaxCoordinate = 100;
 
-inline Eigen::Vector3d gap() {
-  return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-}
-inline bool is_seen(const Eigen::Vector3d& point) {
-  return point.allFinite();
-}
+inline Eigen::Vector3d gap() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+inline bool is_seen(const Eigen::Vector3d& point) { return point.allFinite(); }
 /// True for "unlabeled...", "unnamed..." (any case) and "*...".
 bool is_unlabeled(const std::string& name);
 

@@ -47,9 +47,7 @@ const Format* format_of_file(std::string_view path, Reader Format::*reader) {
 inline bool is_trajectory_file(std::string_view name) {
   return format_of_file(name, &Format::trajectory) != nullptr;
 }
-inline bool is_posture_file(std::string_view name) {
-  return format_of_file(name, &Format::postures) != nullptr;
-}
+inline bool is_posture_file(std::string_view name) { return format_of_file(name, &Format::postures) != nullptr; }
 
 /// Chooses the format by the ending.
 /// Throws: Error.

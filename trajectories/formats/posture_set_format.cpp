@@ -106,9 +106,7 @@ std::string canonical_text(const PostureSet& set) {
   return json;
 }
 
-void write_posture_set(const PostureSet& set, const std::string& path) {
-  write_file(path, canonical_text(set));
-}
+void write_posture_set(const PostureSet& set, const std::string& path) { write_file(path, canonical_text(set)); }
 
 const Posture& find_posture(const PostureSet& set, std::string_view name) {
   const auto found = std::ranges::find(set.posture_names, name);

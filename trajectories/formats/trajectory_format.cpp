@@ -157,9 +157,7 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path) {
   write_file(path, canonical_text(trajectory));
 }
 
-std::string hash(const Trajectory& trajectory) {
-  return hash_text(canonical_text(trajectory));
-}
+std::string hash(const Trajectory& trajectory) { return hash_text(canonical_text(trajectory)); }
 
 Format trajectory_format() {
   return {.name = "trajectory",

@@ -19,9 +19,7 @@ using ::testing::ElementsAre;
 const std::string kPostureFolder = build_paths::source("trajectories/data");
 
 /// All angles equal: posture_distance of two such postures is the difference of their values.
-Posture all(double angle) {
-  return Posture::Constant(angle);
-}
+Posture all(double angle) { return Posture::Constant(angle); }
 
 TEST(LowDispersion, takes_the_farthest_each_time) {
   const std::vector<Posture> pool = {all(0.1), all(1), all(0.4), all(0.9)};

@@ -142,17 +142,13 @@ MotionScript parse_motion_script(std::string_view text, const PostureSet& gestur
   return script;
 }
 
-double minimum_jerk(double time) {
-  return time * time * time * (10 + time * (-15 + time * 6));
-}
+double minimum_jerk(double time) { return time * time * time * (10 + time * (-15 + time * 6)); }
 
 WristAngles mix(const WristAngles& a, const WristAngles& b, double share) {
   return {std::lerp(a.flexion, b.flexion, share), std::lerp(a.abduction, b.abduction, share)};
 }
 
-Posture mix(const Posture& a, const Posture& b, double share) {
-  return a + share * (b - a);
-}
+Posture mix(const Posture& a, const Posture& b, double share) { return a + share * (b - a); }
 
 HandPose mix(const HandPose& a, const HandPose& b, double share) {
   return {a.position + share * (b.position - a.position), a.rotation.slerp(share, b.rotation)};

@@ -29,9 +29,7 @@ json example_script() {
               {"frame": 30, "position_mm": [100, 0, 700], "yaw_deg": 40, "pitch_deg": 0, "roll_deg": 0}]})");
 }
 
-MotionScript parse(const json& document) {
-  return parse_motion_script(document.dump(), gestures(), "script.json");
-}
+MotionScript parse(const json& document) { return parse_motion_script(document.dump(), gestures(), "script.json"); }
 
 std::string script_complaint(const json& document) {
   try {

@@ -11,9 +11,7 @@ namespace {
 constexpr int kFingerCount = 4;  ///< index to little
 
 /// The four angles of a finger follow each other: abduction, MCP, PIP, DIP.
-int first_angle(int finger) {
-  return kIndexMcpAbduction + 4 * finger;
-}
+int first_angle(int finger) { return kIndexMcpAbduction + 4 * finger; }
 
 void bend(Posture& mode, int finger, double mcp, double pip) {
   mode[first_angle(finger) + 1] += mcp;

@@ -18,9 +18,7 @@ constexpr double kMessageUnitTolerance = 1e-3;  // as tf2 admits it
 constexpr int kWristJointCount = 2;             // the last ones of ShadowJoint
 static_assert(kWRJ1 == kShadowJointCount - 2 && kWRJ2 == kShadowJointCount - 1);
 
-bool is_time(const ros::Time& time) {
-  return time.sec >= 0 && time.nanosec < kNanosecondsOfASecond;
-}
+bool is_time(const ros::Time& time) { return time.sec >= 0 && time.nanosec < kNanosecondsOfASecond; }
 
 ros::JointTrajectory trajectory(const RobotCommand& command, const std::vector<std::string>& names, int first,
                                 int64_t time_us) {
@@ -76,9 +74,7 @@ ros::Time ros_time(int64_t time_us) {
   return {static_cast<int32_t>(time_us / kSecond), static_cast<uint32_t>(time_us % kSecond * 1000)};
 }
 
-int64_t nanoseconds(const ros::Time& time) {
-  return int64_t{time.sec} * kNanosecondsOfASecond + time.nanosec;
-}
+int64_t nanoseconds(const ros::Time& time) { return int64_t{time.sec} * kNanosecondsOfASecond + time.nanosec; }
 
 int64_t time_to_targets_us(double longest_step_s) {
   // After a time t a controller still has at most the rest of this time to go, and the next targets are at most

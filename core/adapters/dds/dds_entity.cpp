@@ -120,13 +120,9 @@ std::shared_ptr<const DdsDomain> join_domain(int domain, const DdsAccess& access
 
 }  // namespace
 
-int64_t dds_messages_too_large() {
-  return messages_too_large;
-}
+int64_t dds_messages_too_large() { return messages_too_large; }
 
-int64_t dds_messages_of_too_many() {
-  return messages_of_too_many;
-}
+int64_t dds_messages_of_too_many() { return messages_of_too_many; }
 
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected) {
   if (result < 0) throw Error("DDS", what, dds_strretcode(-result), expected);

@@ -36,9 +36,7 @@ dds_sequence_string borrow(std::vector<char*>& names) {
   return {size, size, names.data(), false};
 }
 
-std::string text(const char* characters) {
-  return characters ? characters : "";
-}
+std::string text(const char* characters) { return characters ? characters : ""; }
 
 std::vector<double> copied(const dds_sequence_double& values) {
   return {values._buffer, values._buffer + values._length};
@@ -50,9 +48,7 @@ std::vector<std::string> copied(const dds_sequence_string& names) {
   return copies;
 }
 
-ros::Time stamp_of(const CHeader& header) {
-  return {header.stamp.sec, header.stamp.nanosec};
-}
+ros::Time stamp_of(const CHeader& header) { return {header.stamp.sec, header.stamp.nanosec}; }
 
 }  // namespace
 

@@ -25,9 +25,7 @@ constexpr int kDepth = 100;                            // waiting messages, also
 constexpr int64_t kTellerUs = 1'000'000;               // after this silence a process publishes no more
 constexpr size_t kMostTellers = 16;                    // two are too many already
 
-std::string seconds(int64_t us) {
-  return fmt::format("{:.2f} s", static_cast<double>(us) * 1e-6);
-}
+std::string seconds(int64_t us) { return fmt::format("{:.2f} s", static_cast<double>(us) * 1e-6); }
 
 /// Empty if a time is at most kMeasuredAgeUs from now.
 std::string age_fault(const char* what, int64_t then_us, int64_t now_us) {

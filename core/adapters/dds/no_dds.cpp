@@ -16,12 +16,8 @@ namespace {
 
 const bool kHasDds = false;
 
-std::unique_ptr<RobotBus> join_robot_bus(const RobotBusOptions& options) {
-  refuse(options.domain);
-}
+std::unique_ptr<RobotBus> join_robot_bus(const RobotBusOptions& options) { refuse(options.domain); }
 
-DdsServerSummary serve(const DdsServerOptions& options) {
-  refuse(options.domain);
-}
+DdsServerSummary serve(const DdsServerOptions& options) { refuse(options.domain); }
 
 }  // namespace glovebench

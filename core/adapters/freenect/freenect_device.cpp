@@ -56,9 +56,7 @@ struct WholeFrame {
 };
 
 /// The recording that fakenect plays, if fakenect is loaded.
-const char* played_dump() {
-  return std::getenv("FAKENECT_PATH");
-}
+const char* played_dump() { return std::getenv("FAKENECT_PATH"); }
 
 void require_size(const PinholeCamera& camera, const std::string& where, const std::string& field) {
   if (camera.width != kWidth || camera.height != kHeight)

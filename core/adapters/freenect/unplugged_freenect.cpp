@@ -39,59 +39,31 @@ int freenect_init(freenect_context** context, freenect_usb_context*) {
   *context = some<freenect_context>();
   return 0;
 }
-int freenect_shutdown(freenect_context*) {
-  return 0;
-}
-void freenect_set_log_callback(freenect_context*, freenect_log_cb callback) {
-  log_line = callback;
-}
+int freenect_shutdown(freenect_context*) { return 0; }
+void freenect_set_log_callback(freenect_context*, freenect_log_cb callback) { log_line = callback; }
 void freenect_select_subdevices(freenect_context*, freenect_device_flags) {}
-int freenect_num_devices(freenect_context*) {
-  return 1;
-}
+int freenect_num_devices(freenect_context*) { return 1; }
 int freenect_open_device(freenect_context*, freenect_device** device, int) {
   *device = some<freenect_device>();
   return 0;
 }
-int freenect_close_device(freenect_device*) {
-  return 0;
-}
-void freenect_set_user(freenect_device*, void* value) {
-  user = value;
-}
-void* freenect_get_user(freenect_device*) {
-  return user;
-}
-void freenect_set_depth_callback(freenect_device*, freenect_depth_cb callback) {
-  take_depth = callback;
-}
-void freenect_set_video_callback(freenect_device*, freenect_video_cb callback) {
-  take_video = callback;
-}
+int freenect_close_device(freenect_device*) { return 0; }
+void freenect_set_user(freenect_device*, void* value) { user = value; }
+void* freenect_get_user(freenect_device*) { return user; }
+void freenect_set_depth_callback(freenect_device*, freenect_depth_cb callback) { take_depth = callback; }
+void freenect_set_video_callback(freenect_device*, freenect_video_cb callback) { take_video = callback; }
 freenect_frame_mode freenect_find_depth_mode(freenect_resolution, freenect_depth_format) {
   return mode_of(2 * kPixels);
 }
 freenect_frame_mode freenect_find_video_mode(freenect_resolution, freenect_video_format) {
   return mode_of(3 * kPixels);
 }
-int freenect_set_depth_mode(freenect_device*, freenect_frame_mode) {
-  return 0;
-}
-int freenect_set_video_mode(freenect_device*, freenect_frame_mode) {
-  return 0;
-}
-int freenect_start_depth(freenect_device*) {
-  return 0;
-}
-int freenect_start_video(freenect_device*) {
-  return 0;
-}
-int freenect_stop_depth(freenect_device*) {
-  return 0;
-}
-int freenect_stop_video(freenect_device*) {
-  return 0;
-}
+int freenect_set_depth_mode(freenect_device*, freenect_frame_mode) { return 0; }
+int freenect_set_video_mode(freenect_device*, freenect_frame_mode) { return 0; }
+int freenect_start_depth(freenect_device*) { return 0; }
+int freenect_start_video(freenect_device*) { return 0; }
+int freenect_stop_depth(freenect_device*) { return 0; }
+int freenect_stop_video(freenect_device*) { return 0; }
 
 int freenect_process_events_timeout(freenect_context* context, timeval*) {
   if (frame == kFrames) {

@@ -132,8 +132,6 @@ class KdlArmSolver : public ArmSolver {
 
 }  // namespace
 
-std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints& rest) {
-  return std::make_unique<KdlArmSolver>(rest);
-}
+std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints& rest) { return std::make_unique<KdlArmSolver>(rest); }
 
 }  // namespace glovebench

@@ -2,8 +2,6 @@
 
 namespace glovebench {
 
-std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints&) {
-  return nullptr;
-}
+std::unique_ptr<ArmSolver> make_arm_solver(const ArmJoints&) { return nullptr; }
 
 }  // namespace glovebench

@@ -197,8 +197,6 @@ class OpenNi2Player : public OniPlayer {
 
 const bool kHasOpenNi2 = true;
 
-std::unique_ptr<OniPlayer> open_oni(const std::string& path) {
-  return std::make_unique<OpenNi2Player>(path);
-}
+std::unique_ptr<OniPlayer> open_oni(const std::string& path) { return std::make_unique<OpenNi2Player>(path); }
 
 }  // namespace glovebench

@@ -21,9 +21,7 @@ namespace {
 /// As stored; gray of 16 bits keeps its values.
 using Picture = std::variant<ColorImage, Image<uint8_t>, Image<uint16_t>>;
 
-const uint8_t* bytes_of(std::string_view content) {
-  return reinterpret_cast<const uint8_t*>(content.data());
-}
+const uint8_t* bytes_of(std::string_view content) { return reinterpret_cast<const uint8_t*>(content.data()); }
 
 [[noreturn]] void refuse(const std::string& path, std::string_view found, const char* format) {
   throw Error(path, "content", printable(found), fmt::format("a whole {} image", format));
@@ -171,17 +169,11 @@ Image<uint8_t> stretched(const Image<uint16_t>& deep) {
 
 }  // namespace
 
-std::string encode_png(const ColorImage& image) {
-  return png_of(image, PNG_FORMAT_RGB);
-}
+std::string encode_png(const ColorImage& image) { return png_of(image, PNG_FORMAT_RGB); }
 
-std::string encode_png(const Image<uint8_t>& image) {
-  return png_of(image, PNG_FORMAT_GRAY);
-}
+std::string encode_png(const Image<uint8_t>& image) { return png_of(image, PNG_FORMAT_GRAY); }
 
-std::string encode_png(const Image<uint16_t>& image) {
-  return png_of(image, PNG_FORMAT_LINEAR_Y);
-}
+std::string encode_png(const Image<uint16_t>& image) { return png_of(image, PNG_FORMAT_LINEAR_Y); }
 
 std::string encode_jpeg(const ColorImage& image, int quality) {
   const Jpeg jpeg(tjInitCompress(), &tjDestroy);

@@ -35,9 +35,7 @@ std::string refusal(std::string_view content) {
   return "";
 }
 
-TEST(PictureFiles, PngComesBackEqual) {
-  EXPECT_EQ(decode_color(encode_png(make_image()), "a.png"), make_image());
-}
+TEST(PictureFiles, PngComesBackEqual) { EXPECT_EQ(decode_color(encode_png(make_image()), "a.png"), make_image()); }
 
 TEST(PictureFiles, JpegComesBackNearlyEqual) {
   const ColorImage image = make_image(), found = decode_color(encode_jpeg(image, 95), "a.jpg");

@@ -107,9 +107,7 @@ bool becomes(const std::string& words, bool running) {
 }
 
 /// A command that no other process has.
-std::string unique_sleep() {
-  return fmt::format("sleep {}.{}", 100000 + getpid(), 5);
-}
+std::string unique_sleep() { return fmt::format("sleep {}.{}", 100000 + getpid(), 5); }
 
 TEST_F(ProcessMethodTest, AnswersAreEstimates) {
   const std::unique_ptr<Method> method = make(script(kAnswer));

@@ -168,9 +168,7 @@ void expect_plain_answers_of_any_size(DatabaseMemory memory, int queries) {
   }
 }
 
-TEST(FastLookUp, works_with_databases_of_any_size) {
-  expect_plain_answers_of_any_size(DatabaseMemory::normal, 8);
-}
+TEST(FastLookUp, works_with_databases_of_any_size) { expect_plain_answers_of_any_size(DatabaseMemory::normal, 8); }
 
 TEST(FastLookUpLong, works_with_low_memory_databases_of_any_size) {
   expect_plain_answers_of_any_size(DatabaseMemory::low, 3);

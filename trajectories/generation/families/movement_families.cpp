@@ -119,13 +119,9 @@ std::string bends_text(const MovementFamily& family) {
 
 }  // namespace
 
-std::span<const MovementFamily> movement_families() {
-  return kMovementFamilies;
-}
+std::span<const MovementFamily> movement_families() { return kMovementFamilies; }
 
-std::vector<std::string> movement_family_names() {
-  return names_in(movement_families());
-}
+std::vector<std::string> movement_family_names() { return names_in(movement_families()); }
 
 const MovementFamily& find_movement_family(std::string_view name) {
   return find_in(movement_families(), name, "movements", "family");

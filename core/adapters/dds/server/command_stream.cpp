@@ -17,9 +17,7 @@ constexpr int64_t kBucketUs = 1'000'000;   // part of the window; bounds the mem
 constexpr size_t kMostStreams = 64;
 constexpr int64_t kPaceUs = 500'000;  // over which the pace is measured: a short recording is over in a second
 
-int64_t whole_us(double seconds) {
-  return std::llround(seconds * 1e6);
-}
+int64_t whole_us(double seconds) { return std::llround(seconds * 1e6); }
 
 }  // namespace
 

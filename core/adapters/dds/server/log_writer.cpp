@@ -127,9 +127,7 @@ LogWriter::LogWriter(const std::string& path) : shared_(std::make_shared<Shared>
   thread_ = std::thread([shared = shared_] { write_lines(shared); });
 }
 
-LogWriter::~LogWriter() {
-  finish();
-}
+LogWriter::~LogWriter() { finish(); }
 
 void LogWriter::finish() {
   if (!thread_.joinable()) return;

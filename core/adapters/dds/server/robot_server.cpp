@@ -17,13 +17,9 @@ const std::vector<std::string>& names_of(RobotTopic topic) {
   return topic == RobotTopic::wrist ? wrist_trajectory_names() : hand_trajectory_names();
 }
 
-int first_joint(RobotTopic topic) {
-  return topic == RobotTopic::wrist ? kWRJ1 : 0;
-}
+int first_joint(RobotTopic topic) { return topic == RobotTopic::wrist ? kWRJ1 : 0; }
 
-std::string text(const Eigen::Vector3d& p) {
-  return fmt::format("({:.6g} {:.6g} {:.6g})", p.x(), p.y(), p.z());
-}
+std::string text(const Eigen::Vector3d& p) { return fmt::format("({:.6g} {:.6g} {:.6g})", p.x(), p.y(), p.z()); }
 
 double start_angle(double angle, double min_deg, double max_deg, const StartPlace& start, std::string_view joint) {
   const double angle_deg = degrees_from_radians(angle), tolerance_deg = degrees_from_radians(start.tolerance);
@@ -99,9 +95,7 @@ GuardedPart ServedRobot::part() const {
   return hand ? GuardedPart::robot : GuardedPart::arm;
 }
 
-std::string ServedRobot::name() const {
-  return hand && arm ? "hand and arm" : hand ? "hand" : "arm";
-}
+std::string ServedRobot::name() const { return hand && arm ? "hand and arm" : hand ? "hand" : "arm"; }
 
 std::vector<std::string> ServedRobot::names() const {
   std::vector<std::string> names;

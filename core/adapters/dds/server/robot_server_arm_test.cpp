@@ -190,9 +190,7 @@ TEST_F(RobotServerArm, RefusesOtherFrames) {
 }
 
 /// What a log makes of an angle.
-double logged(double angle) {
-  return radians_from_degrees(std::round(degrees_from_radians(angle) * 1e6) / 1e6);
-}
+double logged(double angle) { return radians_from_degrees(std::round(degrees_from_radians(angle) * 1e6) / 1e6); }
 
 TEST(RobotServerArmStart, StartsAtALimitOfAJoint) {
   const JacobianSolver solver;
