@@ -17,6 +17,7 @@
 
 namespace glovebench {
 
+/// Throws: std::runtime_error unless the folder belongs to this user alone.
 inline std::string shared_folder(const std::string& name) {
   std::string path = testing::TempDir() + name;
   ::mkdir(path.c_str(), 0700);
@@ -72,7 +73,7 @@ inline std::string shared_test_folder() {
   return folder.string();
 }
 
-/// Other processes wait for `fill`.
+/// A folder in `home` that `fill` fills once; other processes wait.
 inline std::string filled_once(const std::string& home, const std::string& name,
                                const std::function<void(const std::string& folder)>& fill) {
   namespace fs = std::filesystem;

@@ -20,7 +20,7 @@ struct Experiment {
 };
 /// In order of appearance. `runs` must outlive the result; seeds must differ.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
-/// Over frames and seeds.
+/// Means, coverage and curves over frames and seeds.
 reports::ExperimentResult evaluate(const Experiment& experiment);
 /// True if each answer has posture and pose.
 bool has_hands(const Experiment& experiment);

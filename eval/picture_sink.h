@@ -19,7 +19,7 @@ class PictureSink {
 };
 
 /// A folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4) by ffmpeg, which is
-/// FILE.partial.mp4 until `finish`.
+/// FILE.partial.mp4 until `finish`. Size in px.
 /// Throws: Error unless the folder is new or empty, for another ending, or without ffmpeg.
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height);
 

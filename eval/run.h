@@ -61,15 +61,16 @@ std::span<const HandFrame> frames_of(const RunSpec& spec);
 /// The seed does not change it.
 reports::ExperimentKey key_of(const RunSpec& spec);
 render::SyntheticKinect make_kinect(Workbench& workbench, const RunSpec& spec);
+/// True if hand, frames, light and scene are the same.
 bool share_images(const RunSpec& a, const RunSpec& b);
 
 struct RunOptions {
   int threads = 1;
-  RunStore* store = nullptr;
+  RunStore* store = nullptr;  ///< of finished runs; null: none
 };
-/// Renders, adds noise and tracks. Trackers get only device frames and calibration. `threads` change only times.
-/// Successive specs with the same images are rendered once.
-/// Throws: Error for a wrong spec, before any work.
+/// Renders, adds noise and tracks, in the order of `specs`. Trackers get only device frames and calibration.
+/// `threads` change only times. Successive specs with the same images are rendered once. Throws: Error for a wrong
+/// spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
 /// By frame. Renders without noise.

@@ -131,13 +131,12 @@ Table empty_table(const Streaming& streaming) {
       "lies between two frames' truths; before the first answer the hand is lost (after Li, Wang and Ramanan 2020, "
       "who use answers when a frame is taken). A tracker that has finished takes the newest frame; frames that it "
       "never takes are dropped, and it does not see them. Age: from the frame of the answer in use to its use. "
-      "Time "
-      "of a frame, a mean over the answered ones: {}.",
+      "Time: mean over the answered frames; {}.",
       kUsesPerFrame,
       is_time
-          ? "our trackers' processor time, the time until a program answers; measured while no other job of the "
-            "command ran. The first frame counts as long as the second, since a live system has started before; "
-            "other times give other results"
+          ? "our trackers' processor time, the time until a program answers, measured while no other job of the "
+            "command ran. The first frame takes as long as the second, since a live system has started before, and "
+            "does not count. Other times give other results"
           : "as given");
   return table;
 }
@@ -159,7 +158,8 @@ PlaybackMeans means_of(const Streaming& streaming, const Experiment& experiment,
     const auto r = static_cast<size_t>(each - runs.data());
     const std::vector<double> arrivals = arrivals_ms(each->run.spec);
     const std::vector<double> tracker_ms = tracker_times_ms(streaming, each->run);
-    for (size_t f = 0; f < tracker_ms.size(); ++f)
+    const size_t first = tracker_ms.size() > 1 ? 1 : 0;  // the first frame has the second one's time
+    for (size_t f = first; f < tracker_ms.size(); ++f)
       if (is_answer(each->run.answers[f])) times.push_back(tracker_ms[f]);
     kept += playbacks[r].kept.size();
     frames += tracker_ms.size();

@@ -23,11 +23,12 @@ struct Playback {
   std::optional<size_t> in_use(double moment_ms) const;
 };
 /// Plays frames on a simulated clock. A finished tracker takes the newest frame that arrived meanwhile, else the
-/// next. `arrival_ms` increases. `tracker_ms`: by frame.
+/// next. `arrival_ms` increases. `tracker_ms`: time of each frame.
 /// Paper: Li, Wang and Ramanan 2020, "Towards Streaming Perception", section 3.
 Playback play(std::span<const double> arrival_ms, std::span<const double> tracker_ms);
 
-/// The errors of `runs`, beside those of the answers in use. Runs that drop frames are tracked again without them.
+/// The errors of `runs`, beside those of the answers in use at eight moments a frame; a row per experiment. Runs
+/// that drop frames are tracked again without these.
 reports::StudyResult streaming_study(Workbench& workbench, const Streaming& streaming,
                                      std::span<const MeasuredRun> runs);
 

@@ -16,8 +16,8 @@ struct TrueNeighbor {
 };
 
 /// Finds the entry with the smallest mean vertex distance to a true hand. Ties go to the smaller entry. Hands are
-/// compared at one origin and along one ray (`box_ray`). `model`: the database's hand. Both must live longer.
-/// Thread-safe.
+/// compared at one origin and along one ray (`box_ray`). `model`: the database's hand. Both must outlive the
+/// search. Thread-safe.
 class TrueNeighborSearch {
  public:
   TrueNeighborSearch(const HandModel& model, const Database& database);

@@ -18,7 +18,8 @@ namespace glovebench::render::gl {
 inline constexpr double kNear = 0.05;
 inline constexpr double kFar = 10.0;
 
-/// From camera to clip coordinates, top row first, pixel centers at +0.5. Front faces become clockwise.
+/// From camera to clip coordinates, top row first, pixel centers at +0.5. Front faces become clockwise
+/// (glFrontFace(GL_CW), set_pass_state).
 Eigen::Matrix4f projection(const PinholeCamera& camera);
 
 /// Throws: std::logic_error if the shaders do not compile.
@@ -49,6 +50,7 @@ class Framebuffer {
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
+  /// Makes textures for a new size.
   void bind(int width, int height);
   GLuint texture(int attachment) const { return textures_[attachment]; }
   /// Copies pixels, top row first.
@@ -89,7 +91,7 @@ class VertexArray {
 
 /// Depth test, back-face culling, no blending or dithering.
 void set_pass_state();
-/// Until `set_pass_state`.
+/// Limits clearing and drawing until `set_pass_state`.
 void limit_to(int left, int top, int width, int height);
 
 }  // namespace glovebench::render::gl

@@ -23,7 +23,7 @@ struct Lighting {
 /// Linear sRGB of black-body light, luminance 1, balanced for 5000 K (Kim et al.'s spline).
 Eigen::Vector3d rgb_of_temperature(double temperature_k);
 
-/// 0..1 to 0..1.
+/// Linear 0..1 to sRGB-coded 0..1.
 double srgb_encode(double linear);
 
 /// Applies gains > 0 to linear RGB. Clips at white.

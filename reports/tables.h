@@ -54,11 +54,11 @@ std::string metrics_csv(const RunResult& result);
 /// Percent of all frames.
 std::optional<double> covered_percent(const ExperimentResult& experiment);
 
-/// The first columns of each CSV: "run" (run_name) to "noise_factor".
+/// Columns "run" (run_name), "experiment" to "noise_factor". Each CSV begins with the first two.
 nlohmann::ordered_json experiment_columns();
 nlohmann::ordered_json experiment_cells(const std::string& run, const ExperimentKey& key);
 
-/// Columns: experiment_columns, seed, frame_columns.
+/// Columns: run, experiment, seed, frame_columns.
 std::string frames_csv(const std::string& run, const ExperimentResult& experiment);
 /// Errors per frame beside the paper's, which are of another movement.
 std::string curve_csv(const std::string& run, const ExperimentResult& experiment, const PaperCurve& paper);

@@ -40,6 +40,7 @@ Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
 
+/// Reads files of one state of the folder.
 class FileSet {
  public:
   /// Throws: Error as read_manifest.

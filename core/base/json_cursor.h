@@ -68,6 +68,7 @@ class JsonCursor {
   Eigen::Vector3d vector3(std::optional<double> most = {}) const;
 
   const nlohmann::json& value() const { return *value_; }
+  /// "FILE: frames[17].angles_deg[3]".
   std::string place() const;
   [[noreturn]] void fail(const std::string& expected) const;
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;

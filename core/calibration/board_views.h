@@ -50,7 +50,7 @@ struct BoardViews {
   std::vector<std::string> changed = {};  ///< files that differ from the manifest
 };
 
-/// Called before each picture; `done` are searched.
+/// Called before each picture. `done`: number of earlier ones.
 using Looked = std::function<void(size_t done, size_t count)>;
 
 /// Searches a folder of images, or up to `most` evenly spaced color images of `fakenect:FOLDER`.

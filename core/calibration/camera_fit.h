@@ -14,7 +14,8 @@ double misfit_limit(const std::vector<double>& errors_px);
 void require_fit(double error_px, const std::string& where);
 LeftOut misfit(const std::string& name, double error_px, double limit_px);
 
-enum class LensModel { none, radial, full };  ///< fitted: none; k1, k2, k3; all five
+/// The fitted coefficients of LensDistortion: none; k1, k2, k3; all five.
+enum class LensModel { none, radial, full };
 constexpr auto names_of(LensModel) { return std::to_array<std::string_view>({"none", "radial", "full"}); }
 
 /// Errors are RMS distances of corners from fitted ones.

@@ -43,12 +43,12 @@ struct GloveColorFit {
   double noise_gray = 0;
   GloveColorConfig config;
   std::array<GloveColor, kColorCount + 1> colors;
-  std::vector<GloveColor> others;            ///< other frequent colors, such as skin
-  int64_t glove = 0, other = 0, unsure = 0;  ///< even pixels in the volume
-  int64_t beyond = 0, beyond_like_glove = 0;
+  std::vector<GloveColor> others;             ///< other frequent colors, such as skin
+  int64_t glove = 0, other = 0, unsure = 0;   ///< even pixels in the volume
+  int64_t beyond = 0, beyond_like_glove = 0;  ///< pixels behind the volume
   std::array<int64_t, kColorCount + 1> beyond_like{};
 
-  /// The most probable color within `glove_distance`, else kNotGlove or kUnsure.
+  /// The most probable color within `glove_distance`, else kNotGlove or kUnsure. Dark pixels are kUnsure.
   uint8_t classify(const Rgb& rgb) const;
 };
 

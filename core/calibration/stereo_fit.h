@@ -14,7 +14,7 @@ struct StereoFit {
   std::vector<std::string> pairs;
   std::vector<double> pair_errors_px;
   std::vector<LeftOut> left_out;
-  /// Standard errors.
+  /// Standard errors of T_rgb_ir.
   double translation_error = 0;  ///< m
   double rotation_error = 0;     ///< rad
 };

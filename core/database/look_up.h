@@ -45,7 +45,7 @@ struct LookUpTrace {
   std::vector<std::vector<int>> kept;
 };
 
-/// All give equal matches and traces.
+/// core/database/look_ups/X_look_up.cpp defines `LookUpEntry X_look_up()`. All give equal matches and traces.
 struct LookUpEntry {
   std::string_view name;
   std::string_view description;

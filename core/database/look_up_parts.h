@@ -19,7 +19,7 @@ inline float pixels_from_sum(uint32_t sum, size_t glove_pixels) {
   return static_cast<float>(sum) / static_cast<float>(kFieldScale * glove_pixels);
 }
 
-/// Into an entry's fields, one per glove pixel.
+/// Offsets into an entry's fields, one per glove pixel of the query.
 RecycledVector<int> glove_offsets(const LabelImage& query);
 /// In 1/kFieldScale px, at most 4096 * 255.
 uint32_t sum_of(const uint8_t* fields, const RecycledVector<int>& offsets);

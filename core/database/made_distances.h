@@ -22,7 +22,7 @@ class MadeDistances {
     size_t pixels = 0;
     RowRange rows_px;
     RecycledVector<FieldChunk> chunks;
-    RecycledVector<WeightedRow> bounds;
+    RecycledVector<WeightedRow> bounds;  ///< sum to a lower bound
   };
 
   const Database& database_;

@@ -24,7 +24,7 @@ struct DatabaseContent {
 };
 
 /// Hashes sections and checks values, also of fields that are not stored. `load` also makes rows and keeps a
-/// normal database in memory.
+/// normal database in memory. Uses the caller's TBB arena.
 DatabaseContent look_at_sections(const DatabaseLayout& layout, const MappedMemory& file,
                                  std::span<const Section> sections, bool load);
 

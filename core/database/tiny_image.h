@@ -14,7 +14,7 @@ inline constexpr std::array<int, 4> kTinySizes = {8, 16, 32, 64};
 /// Limits of chamfer_field, px.
 inline constexpr int kSmallestTinySize = 4, kLargestTinySize = 64;
 
-/// Half-open; may extend beyond the image.
+/// Half-open ranges, px; may extend beyond the image.
 struct Square {
   int left = 0;
   int top = 0;

@@ -34,6 +34,7 @@ class RecordingDevice : public Device {
 
   int frame_count() const { return static_cast<int>(pairs_.size()); }
   int unpaired_depth_count() const { return unpaired_depth_count_; }
+  /// Images that were not later than the one before.
   int repeated_count() const { return repeated_count_; }
   /// Calibration or index, if different from the manifest.
   const std::vector<std::string>& changed() const { return changed_; }

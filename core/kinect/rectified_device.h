@@ -27,11 +27,11 @@ class Rectification {
   ColorImage operator()(const ColorImage& color) const;
 
  private:
-  using Place = std::array<int16_t, 2>;
+  using Place = std::array<int16_t, 2>;  ///< u, v in the distorted image
 
   Image<Place> nearest_;
-  Image<Place> top_left_;
-  Image<uint16_t> fractions_;
+  Image<Place> top_left_;      ///< of four neighbors
+  Image<uint16_t> fractions_;  ///< OpenCV's index of their weights
 };
 
 class RectifiedDevice : public Device {

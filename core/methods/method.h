@@ -30,6 +30,7 @@ struct MethodInputs {
   ViewRendererFactory renderers = {};  ///< renders to compare; may be empty
 };
 
+/// core/methods/X_method.cpp defines `MethodEntry X_method()`.
 struct MethodEntry {
   std::string_view name;
   std::string_view description;

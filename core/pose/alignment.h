@@ -42,13 +42,15 @@ RecycledVector<LabeledPoint> every_nth(std::span<const LabeledPoint> points, siz
 /// Every nth point, for the smallest n that leaves at most `max_points`.
 RecycledVector<LabeledPoint> subsample(std::span<const LabeledPoint> points, int max_points);
 
-/// Puts the center of the camera-facing faces, else the hand's origin, at the cloud's center.
+/// Has the given rotation. Puts the center of the camera-facing faces, else the hand's origin, at the center of
+/// `points` (camera frame, m).
 /// Paper: section III-C.
 Eigen::Isometry3d coarse_pose(const HandModel& model, const PosedHand& hand, const Eigen::Matrix3d& R_camera_hand,
                               std::span<const LabeledPoint> points, bool center_visible_surface = true);
 
-/// `align` sets all fields of the result, obeys `max_iterations` and `cull_each_iteration`, and matches by
-/// `SurfaceMatcher`.
+/// core/pose/alignments/X_alignment.cpp defines `AlignmentEntry X_alignment()`. `align` sets all fields of the
+/// result, obeys `max_iterations` and `cull_each_iteration`, and matches by `SurfaceMatcher`, which obeys
+/// `implementation` and `color_sensitive`.
 struct AlignmentEntry {
   std::string_view name;
   std::string_view description;

@@ -28,8 +28,8 @@ struct FitStage {
   double tangential[2];     ///< weight of distances along the surface, relative to the normal
   bool outline_moves_pose;  ///< false: only the angles
 };
-/// All starts run `trial`, the best `kept_starts` run `rough`, the best of these `fine`. Weights are per 1,000
-/// points.
+/// All starts run `trial`, the best `kept_starts` run `rough`, the best of these `fine`. Weights are for 1,000
+/// points: all points together count as many.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
   FitStage rough{6, 0, 1000, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
@@ -48,7 +48,7 @@ struct ArticulatedEstimate {
   AlignmentStatus status = AlignmentStatus::too_few_points;
   ArticulatedPose pose;
   int start = -1;  ///< index into `starts`
-  int points = 0;
+  int points = 0;  ///< in `fine`
   int steps = 0;
   double residual = 0;                  ///< mean point-to-triangle distance before the last step, m
   std::optional<double> misfit;         ///< as TrackResult::misfit

@@ -17,8 +17,9 @@ struct CoarseEstimate {
   bool ambiguous = false;  ///< two rotations differ by more than 60 degrees
 };
 
-/// Weights matches by 1 / (E + epsilon); rotations: `mean_rotation`. Turns each view's rotation from the ray to
-/// its hand to `query_ray` (unit, camera frame; empty: not turned). `matches` is not empty.
+/// Mean of the matches with weights 1 / (E + epsilon); of rotations, `mean_rotation`. First turns each view's
+/// rotation from the ray to its hand to `query_ray` (unit, camera frame; empty: not turned). `matches` is not
+/// empty.
 CoarseEstimate interpolate(const Database& database, std::span<const Match> matches,
                            const std::optional<Eigen::Vector3d>& query_ray, double epsilon);
 

@@ -16,6 +16,7 @@ class SurfaceMatcher {
   SurfaceMatcher(const HandModel& model, const PosedHand& hand, RecycledVector<LabeledPoint> cloud,
                  const IcpConfig& config);
 
+  /// Keeps the faces that face the camera.
   void cull(const Eigen::Isometry3d& T_camera_hand);
   /// Call after `cull`.
   void match(const Eigen::Isometry3d& T_camera_hand);
@@ -38,6 +39,7 @@ class SurfaceMatcher {
   std::span<const ClosestPoint> closest_;
 };
 
+/// The camera in the hand frame, m.
 Eigen::Vector3f viewpoint_hand(const Eigen::Isometry3d& T_camera_hand);
 
 }  // namespace glovebench

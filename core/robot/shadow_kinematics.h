@@ -23,7 +23,7 @@ const Eigen::Isometry3d& shadow_T_hand_palm();
 Fingertips shadow_fingertips(const std::array<double, kShadowJointCount>& joints);
 FingertipJacobian shadow_fingertip_jacobian(const std::array<double, kShadowJointCount>& joints);
 
-/// WRJ2's frame is fixed to the forearm. With a straight wrist it has the palm's axes.
+/// The hand in WRJ2's frame, which is fixed to the forearm. With a straight wrist it has the palm's axes.
 Eigen::Isometry3d shadow_T_wrist_hand(const std::array<double, kShadowJointCount>& joints);
 
 }  // namespace glovebench

@@ -62,7 +62,7 @@ class ColorTable {
   ColorSpace space_ = ColorSpace::yuv;
 };
 
-/// L, of the mapped image M.
+/// The label image L of the mapped image M.
 LabelImage segment(const RegisteredImage& mapped, const ColorTable& table);
 LabelImage segment(const ColorImage& color, const ColorTable& table);
 

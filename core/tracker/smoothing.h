@@ -7,12 +7,12 @@
 
 namespace glovebench {
 
-/// Among the newest `count` results. Null if all were lost.
+/// Among the newest `count` results. Null if all of these were lost.
 const TrackResult* last_tracked(std::span<const TrackResult> previous, int count);
 
-/// A lost frame repeats the last values; `forget_after` lost frames restart the filter. `previous`: earlier
-/// results in time order; the newest `forget_after` suffice.
-/// Paper: section III-C, as its printed numbers show.
+/// Filters by x = keep * previous + (1 - keep) * new. A lost frame repeats the last values; `forget_after` lost
+/// frames restart the filter. `previous`: earlier results in time order; the newest `forget_after` suffice. Paper:
+/// section III-C, as its printed numbers show.
 TrackResult smoothed(TrackResult result, std::span<const TrackResult> previous, const SmoothingConfig& config);
 
 }  // namespace glovebench

@@ -81,6 +81,7 @@ struct TrackResult {
   std::optional<double> misfit;
 };
 
+/// In the order of a frame.
 enum class Stage {
   registration,
   segmentation,
@@ -102,7 +103,7 @@ constexpr auto names_of(Stage) {
 }
 static_assert(kCountOf<Stage> == static_cast<int>(Stage::answer) + 1, "each value has a name");
 
-/// At a stage's begin. A frame may enter one twice. Must not be empty.
+/// Called when a stage begins. A frame may enter a stage twice. Must not be empty.
 using StageObserver = std::function<void(Stage stage)>;
 inline void unobserved(Stage) {}
 

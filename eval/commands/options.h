@@ -71,8 +71,8 @@ class Command {
   Command subcommand(const std::string& name, const std::string& description) const;
   /// The help shows its options under `heading`.
   Command group(const std::string& heading) const;
-  /// `names`: `-o,--output`, or `file` for an argument. Rejects empty values. A bool is a flag. A transform is X Y
-  /// Z (m) QW QX QY QZ.
+  /// `names`: `-o,--output`, or `file` for an argument. Rejects empty values. The help shows the default unless it
+  /// is empty or the option is required. A bool is a flag. A transform is X Y Z (m) QW QX QY QZ.
   /// Throws: Error unless a transform is finite with a unit quaternion.
   template <typename Value>
   Option option(const std::string& names, Value& value, const std::string& help) const;

@@ -20,9 +20,9 @@ struct CaptureAlignment {
   size_t left_out = 0;     ///< answers that are farther off than three medians
 };
 
-/// Finds the time offset with the least mean square distance between answers and interpolated capture, whose frame
-/// is its own. At each offset, half of the tracked answers must fall into the capture. Horn's method gives the
-/// transform.
+/// Finds the time offset with the least mean square distance between answers and capture, among the offsets that
+/// put half of the tracked answers into the capture; the transform of each is Horn's. `capture` is in its own
+/// frame and is interpolated.
 /// Throws: Error for fewer than 10 tracked answers, answers without place or scale, or a hand that does not move.
 CaptureAlignment align_to_capture(std::span<const HandFrame> capture, std::span<const TrackResult> answers,
                                   const render::Subject& subject, const HandModel& hand, const std::string& where);

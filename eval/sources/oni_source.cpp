@@ -137,7 +137,7 @@ TrackSource open_oni_source(const std::string& path, const SourceFlags& flags, b
       flags.calibration.empty() ? calibration_from_json(to_json(player->calibration()), path)  // checks it
                                 : load_calibration(flags.calibration);
   if (flags.calibration.empty() && !quiet)
-    say("glovebench: {}: depth counts as registered to color; if it is not, give --calibration\n", path);
+    say("glovebench: {}: depth counts as registered to color; if it is not, give --calibration\n", flags.source);
   RecordedImages images{times.depth_us, times.color_us,
                         [player, times](size_t i) {
                           return depth_in_m(player->depth_steps(times.depth_us[i]), player->steps_per_m());

@@ -7,7 +7,7 @@
 
 namespace glovebench::eval {
 
-/// Times of the images in a file of OpenNI2's recorder, in the file's order. Both begin at 0.
+/// Times of the images in a file of OpenNI2's recorder, in the file's order. The recorder begins both kinds at 0.
 struct OniTimes {
   std::vector<int64_t> depth_us, color_us;
 };

@@ -54,7 +54,7 @@ reports::StudyResult run_external(const StudyContext& context) {
   std::vector<std::pair<std::string, reports::StudyResult>> streamed;
   for (const Setting& setting : settings_beside(theirs)) {
     const std::vector<RunSpec> specs = study_specs(context, {setting}, {kDatabase}, reports::TruthKind::source);
-    // Not stored, one job: times tell which frames a live system drops.
+    // One job, nothing stored: this process measures the times, which tell what a live system drops.
     const Runs runs = measure(context.workbench, execute(context.workbench, specs, {}));
     errors.rows.push_back(row_of(setting.name, runs));
     streamed.emplace_back(setting.name, streaming_study(context.workbench, {}, runs));

@@ -49,8 +49,8 @@ struct Setting {
 /// All frames; with `quick`, a stretch.
 FrameRange frames_of(const StudyOptions& options);
 
-/// Each setting with each database on these trajectories (empty: all five; quick: one), with the paper's noise.
-/// Order: trajectory, seed, setting, database.
+/// Each setting with each database on these trajectories (empty: all five; quick: one), with the study's
+/// seeds and the paper's noise. Order: trajectory, seed, setting, database.
 std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<Setting>& settings,
                                  const std::vector<std::string>& databases, reports::TruthKind truth,
                                  const std::vector<std::string>& trajectories = {});

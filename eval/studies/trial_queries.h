@@ -43,7 +43,7 @@ struct TrialQuery {
   std::vector<LabelImage> images;  ///< by size
   int redraws = 0;                 ///< rejected hands before it
 };
-/// Threads do not change the queries.
+/// Queries under the paper's noise. Threads do not change them.
 /// Throws: Error if hardly any hand can be looked up.
 std::vector<TrialQuery> make_trial_queries(Workbench& workbench, const TrackerConfig& config,
                                            const PostureSet& postures, std::span<const int> sizes, uint64_t seed,

@@ -19,6 +19,7 @@ struct Gradient {
   float du, dv;
 };
 
+/// `difference(before, here, after)` in u and v.
 template <typename Difference>
 Gradient gradient(const DepthImage& depth, int u, int v, Difference difference) {
   const float z = depth(u, v);

@@ -10,6 +10,7 @@
 
 namespace glovebench::reports {
 
+/// The values with which a claim holds. One end may be infinite.
 struct Rule {
   enum class Kind { below, at_most, above, at_least, within };
   Kind kind = Kind::below;

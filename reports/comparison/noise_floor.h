@@ -38,8 +38,9 @@ struct NoiseFloor {
   friend bool operator==(const NoiseFloor&, const NoiseFloor&) = default;
 };
 
-/// From a result with many seeds (ci/README.md, "Baselines"). Rows without values or intervals have no entry. The
-/// caller sets the date.
+/// From a result with many seeds (ci/README.md, "Baselines"). Minimum effects are at least least_effect
+/// (gate_rule.h). `detectable` comes from comparisons of disjoint seeds. Rows without values or intervals have no
+/// entry. The caller sets the date.
 /// Throws: Error for fewer than kSeedsForEach * seeds_per_result seeds, or if experiments' seeds differ.
 NoiseFloor measure_noise_floor(const RunResult& result, int seeds_per_result, double family_error = 0.01);
 

@@ -55,8 +55,8 @@ std::vector<const Metric*> shared_metrics(const Protocol& baseline, const Protoc
 /// Other metrics, with reasons.
 std::map<std::string, std::string> uncompared_metrics(const Protocol& baseline, const Protocol& candidate);
 
-/// Throws: Incomparable with the first difference: protocol (except metrics), hash of a shared truth or database,
-/// repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
+/// Throws: Incomparable with the first difference: protocol (except metrics), hash of a shared truth or database
+/// (also if missing), repeated or missing experiment, seeds, frame numbers, time stamps; or if nothing is left.
 /// Across noise or subject, also if two experiments of one result differ in nothing else.
 Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {});
 

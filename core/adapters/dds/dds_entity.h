@@ -22,13 +22,14 @@ namespace glovebench {
 /// Throws: Error for an error code.
 dds_entity_t checked_dds(dds_entity_t result, const std::string& what, const std::string& expected);
 
+/// Limits of the memory that others can fill.
 inline constexpr int kLargestMessage = 16 << 10;  // bytes
 inline constexpr int kMaxWaiting = 10'000;        // messages in a reader
 
 /// Messages that a writer keeps, as in ROS 2.
 inline constexpr int kRosDepth = 10;
 
-/// Messages that this process dropped.
+/// Messages over kLargestMessage, which this process dropped.
 int64_t dds_messages_too_large();
 
 struct DdsDomain;
@@ -98,7 +99,7 @@ class DdsOtherWriters {
   std::map<dds_instance_handle_t, std::string> writers_;
 };
 
-/// A reader ignores further writers.
+/// A reader ignores messages from more writers than this.
 inline constexpr size_t kMostWriters = 64;
 
 /// Messages of further writers that this process ignored.

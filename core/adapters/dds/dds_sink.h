@@ -36,7 +36,7 @@ class DdsSink : public RobotCommandSink {
 
  private:
   DdsParticipant participant_;
-  std::optional<DdsOtherWriters> others_;
+  std::optional<DdsOtherWriters> others_;  ///< before the writers: searches before this writes
   DdsWriter<ros::JointTrajectory> hand_, wrist_;
   std::optional<DdsWriter<ros::PoseStamped>> arm_;
   std::optional<int64_t> arrived_ns_;

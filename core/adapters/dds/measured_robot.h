@@ -17,7 +17,7 @@ class MeasuredJoints {
   /// `names`: order of results.
   MeasuredJoints(const DdsParticipant& participant, const std::string& topic, std::vector<std::string> names);
 
-  /// The newest message's positions, rad, if trusted. `steady_us`: monotonic.
+  /// The newest message's positions, rad, if trusted. `system_us`: since 1970. `steady_us`: monotonic.
   std::optional<std::vector<double>> latest(int64_t system_us, int64_t steady_us);
   /// Why `latest` returned nothing, else "".
   const std::string& doubt() const { return doubt_; }
@@ -29,7 +29,7 @@ class MeasuredJoints {
     std::string fault;
     int64_t source_us = 0;
     std::optional<int64_t> stamp_us;
-    int64_t taken_us = 0;
+    int64_t taken_us = 0;  ///< steady clock
   };
   void take_all(int64_t steady_us);
   State read(const ros::JointState& message) const;
@@ -39,7 +39,7 @@ class MeasuredJoints {
   std::vector<std::string> names_;
   DdsReader<ros::JointState> reader_;
   std::optional<State> state_;
-  std::map<uint64_t, int64_t> tellers_;
+  std::map<uint64_t, int64_t> tellers_;  ///< by publisher: last message, steady clock
   std::string doubt_ = "nothing asked";
 };
 

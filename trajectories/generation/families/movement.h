@@ -24,7 +24,7 @@ struct MovementMaterial {
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
 
-/// At 15 Hz. A shorter movement is the beginning of a longer one.
+/// At 15 Hz. Depends only on family, seed and material. A shorter movement is the beginning of a longer one.
 /// Throws: Error if the ranges allow no posture or pose.
 Trajectory generate_movement(const MovementFamily& family, uint64_t seed, const MovementMaterial& material,
                              int frame_count = kMovementFrames);
