@@ -90,8 +90,9 @@ std::vector<uint16_t> depth_units(const DeviceFrame& frame, const OptionalLine& 
   const DepthImage depth = depth_of(frame, line);
   std::vector<uint16_t> units(depth.size());
   std::ranges::transform(depth, units.begin(), [](float z) {
-    const double unit = std::round(1000 * z / kDepthUnit_mm);
-    return unit > 0 && unit <= std::numeric_limits<uint16_t>::max() ? static_cast<uint16_t>(unit) : uint16_t{0};
+    const double unit = 1000 * z / kDepthUnit_mm + 0.5;  // std::round calls a function for each pixel
+    constexpr double kTooFar = std::numeric_limits<uint16_t>::max() + 1.0;
+    return unit >= 1 && unit < kTooFar ? static_cast<uint16_t>(unit) : uint16_t{0};
   });
   return units;
 }
