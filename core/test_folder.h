@@ -53,13 +53,13 @@ class TestFolder {
   std::string path_ = testing::TempDir() + "glovebench-test-XXXXXX";
 };
 
-/// Of the running test or suite, until the program ends.
+/// The folder of the running test or suite, until the program ends.
 inline const std::string& test_folder() {
   static std::map<const testing::TestInfo*, TestFolder> folders;
   return folders[testing::UnitTest::GetInstance()->current_test_info()].path();
 }
 
-/// For expensive files; shared by all processes of this build.
+/// A folder for expensive files, shared by all processes of this executable's build. Removes those of other builds.
 inline std::string shared_test_folder() {
   namespace fs = std::filesystem;
   const fs::path program = fs::read_symlink("/proc/self/exe");

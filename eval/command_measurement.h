@@ -12,7 +12,7 @@
 
 namespace glovebench::eval {
 
-/// As `track` sends them.
+/// Commands as `track` sends them.
 struct CommandStream {
   std::vector<RobotCommand> commands;  ///< in time order, at most one per result
   std::vector<double> command_ms;      ///< processor time by result

@@ -18,7 +18,7 @@ struct Experiment {
   reports::ExperimentKey key;
   std::vector<const MeasuredRun*> runs;
 };
-/// In order of appearance. `runs` must outlive the result; seeds must differ.
+/// In order of appearance. `runs` must outlive the result. A seed occurs once.
 std::vector<Experiment> experiments_of(std::span<const MeasuredRun> runs);
 /// Means, coverage and curves over frames and seeds.
 reports::ExperimentResult evaluate(const Experiment& experiment);

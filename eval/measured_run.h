@@ -19,7 +19,7 @@ struct MeasuredRun {
 /// `subject`: the rendered hand.
 std::vector<reports::FrameErrors> measure(const Run& run, const HandModel& tracker_hand,
                                           const render::Subject& subject);
-/// In the order of `runs`. Uses the workbench's threads.
+/// Measures on the workbench's threads, in the order of `runs`.
 std::vector<MeasuredRun> measure(Workbench& workbench, std::vector<Run> runs);
 
 /// Jitter and latency, as `glovebench list metrics` defines them. Latency needs 30 frames. At rest

@@ -134,7 +134,7 @@ Table empty_table(const Streaming& streaming) {
       "Time: mean over the answered frames; {}.",
       kUsesPerFrame,
       is_time
-          ? "our trackers' processor time, the time until a program answers, measured while no other job of the "
+          ? "of our trackers the processor time, of a program the time until it answers, while no other job of the "
             "command ran. The first frame takes as long as the second, since a live system has started before, and "
             "does not count. Other times give other results"
           : "as given");

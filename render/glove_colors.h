@@ -16,7 +16,7 @@ enum class Shader {
 /// Index 0 is unused.
 const std::array<Eigen::Vector3f, kColorCount + 1>& glove_albedos(Shader shader);
 
-/// By label; 0 is black.
+/// Colors in pictures. 0 is black.
 const std::array<Rgb, kColorCount + 1>& label_palette();
 
 }  // namespace glovebench::render

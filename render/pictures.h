@@ -39,7 +39,7 @@ struct TextLine {
   std::string text;
   Rgb color = {230, 230, 230};
 };
-/// As large as titles in a montage.
+/// Lines, as large as titles in a montage.
 ColorImage picture_of_text(const std::vector<TextLine>& lines, int width, int height);
 
 /// The whole image if nothing is labeled.

@@ -35,9 +35,9 @@ class RgbdRenderer {
   ~RgbdRenderer();
 
   RgbdImages render(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand, const Lighting& lighting);
-  /// In RGB pixels.
+  /// True labels in RGB pixels.
   LabelImage render_color_labels(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
-  /// In RGB pixels and the RGB camera's frame.
+  /// The truth in RGB pixels and in the RGB camera's frame.
   TrueImages render_color_truth(const PosedHand& hand, const Eigen::Isometry3d& T_camera_hand);
   const RgbdCalibration& calibration() const { return calibration_; }
 

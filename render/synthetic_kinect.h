@@ -24,7 +24,7 @@ struct SyntheticKinectConfig {
 DeviceFrame make_device_frame(const RgbdImages& images, const RgbdCalibration& calibration, int64_t timestamp_us,
                               const NoiseConfig& noise, const FrameKey& key);
 
-/// For one thread at a time.
+/// A Kinect before a rendered hand. For one thread at a time.
 class SyntheticKinect : public Device {
  public:
   /// Throws: Error without OpenGL or for an impossible configuration.
@@ -36,7 +36,7 @@ class SyntheticKinect : public Device {
 
   /// The last frame's ideal images. Truth is for the evaluator only.
   const RgbdImages& truth() const;
-  /// From the RGB camera, rendered at each call.
+  /// The same from the RGB camera, rendered at each call.
   TrueImages color_truth();
   const PosedHand& true_hand() const;
 

@@ -15,7 +15,7 @@ Table command_stream_table(const RunResult& result);
 Table command_intervention_table(const RunResult& result);
 /// Errors against the truth's commands, and smoothness.
 Table command_error_table(const RunResult& result);
-/// From frame to command. No rows without times.
+/// Time from frame to command. No rows without times.
 Table command_latency_table(const RunResult& result, const Timings& timings);
 
 /// tables/commands.csv, without times.

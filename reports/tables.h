@@ -21,7 +21,7 @@ struct Variant {
 };
 const std::array<Variant, 3>& figure4_variants();
 
-/// For Tr1 to Tr5: the database of its grasp first, the largest last. Else empty names.
+/// Databases for Tr1 to Tr5: the one for its grasp first, the largest last. Empty names for other trajectories.
 std::array<std::string, 3> figure4_databases(std::string_view trajectory);
 /// True if there are experiments, all of Figure 4 (any noise).
 bool is_figure4(const RunResult& result);

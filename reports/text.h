@@ -10,7 +10,7 @@ namespace glovebench::reports {
 std::string escape_html(const std::string& text);  ///< also SVG
 /// XML 1.0. Invalid characters become U+FFFD.
 std::string escape_xml(const std::string& text);
-/// For one cell or line.
+/// One cell or line. Escapes brackets only where they form links.
 std::string escape_markdown(const std::string& text);
 std::string escape_latex(const std::string& text);
 std::string latex_comment(const std::string& text);

@@ -31,7 +31,7 @@ Trajectory recorded_trajectory(const std::string& data_folder, const std::string
 PostureSet posture_set(const std::string& data_folder, const std::string& name);
 /// Throws: Error.
 PostureSet load_gestures(const std::string& data_folder);
-/// For the family `captured`.
+/// People's postures, for the family `captured`.
 /// Throws: Error.
 PostureSet load_captured_postures(const std::string& data_folder);
 

@@ -57,7 +57,7 @@ class FileSet {
     std::string content;
     bool is_changed = false;
   };
-  /// For a file that need not match the manifest.
+  /// Reads a file that may differ from the manifest or be missing there.
   /// Throws: Error.
   Found find(const std::string& name, uint64_t max_bytes) const;
   /// Throws: BrokenSet.
@@ -72,7 +72,7 @@ class FileSet {
   std::optional<Manifest> manifest_;
 };
 
-/// For one writer, if the file system can lock.
+/// Locks a folder for one writer, if the file system can.
 /// Throws: Error if another process holds it for over 10 s.
 class FolderLock {
  public:

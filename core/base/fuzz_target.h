@@ -17,7 +17,7 @@ struct FuzzTarget {
   std::function<void(std::string_view bytes)> run;
 };
 
-/// For readers.
+/// For readers, which may throw Error.
 template <typename Reader>
 void expect_value_or_error(const Reader& reader) {
   try {
@@ -27,7 +27,7 @@ void expect_value_or_error(const Reader& reader) {
   }
 }
 
-/// For state machines, which throw no Error.
+/// For state machines, which must not throw Error.
 template <typename Run>
 void without_error(const Run& run) {
   try {

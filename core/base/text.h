@@ -12,10 +12,10 @@ namespace glovebench {
 /// Replaces unprintable bytes by "?".
 std::string printable(std::string_view text);
 
-/// In quotes, escaped as in JSON.
+/// An excerpt in quotes, escaped as in JSON.
 std::string quoted_excerpt(std::string_view text);
 
-/// Of an array or object: only its kind.
+/// An excerpt of a value. Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
 
 /// "; did you mean NAME?" for the nearest name (case is ignored) or the shortest that begins with the word. Empty
@@ -37,7 +37,7 @@ std::string checked_name(std::string name, const std::string& where, const std::
 /// "FOLDER/NAME". NAME may contain folders.
 /// Throws: Error for an absolute name, or a part that is empty, begins with a dot or has control characters.
 std::string path_within(const std::string& folder, std::string_view name);
-/// For writing or removing.
+/// The same, for writing or removing.
 /// Throws: Error as above, and if a folder in the name is a symbolic link.
 std::string place_within(const std::string& folder, std::string_view name);
 

@@ -22,7 +22,7 @@ ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where);
 /// Throws: Error.
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where);
 
-/// From a color table or a list of colors.
+/// Reads a color table or a list of colors.
 /// Throws: Error.
 ColorSeeds load_seeds(const std::string& path);
 

@@ -58,7 +58,7 @@ struct GloveColorFit {
 GloveColorFit fit_glove_colors(const ColorSamples& samples, const ColorSeeds& seeds, const std::string& where,
                                const GloveColorConfig& config = {});
 
-/// From classified pixels, without clutter of glove color behind the volume.
+/// Uses classified pixels, without clutter of glove color behind the volume.
 ColorTable build_color_table(const ColorSamples& samples, const GloveColorFit& fit,
                              ColorSpace space = ColorSpace::yuv);
 

@@ -17,7 +17,7 @@ struct PinholeCamera {
   double cx = 0;  ///< px
   double cy = 0;  ///< px
 
-  /// For z > 0.
+  /// Pixel of a point with z > 0.
   Eigen::Vector2d project(const Eigen::Vector3d& p_camera) const {
     return {fx * p_camera.x() / p_camera.z() + cx, fy * p_camera.y() / p_camera.z() + cy};
   }

@@ -17,7 +17,8 @@ struct RegisteredImage {
   Image<uint8_t> has_color;  ///< 1: seen by the RGB camera
 };
 
-/// Inputs must be rectified. Pixels without depth, hidden, or outside the RGB image get no color.
+/// Maps colors to the depth image. Inputs must be rectified. Pixels without depth, hidden, or outside the RGB image
+/// get no color.
 RegisteredImage register_color(const DepthImage& depth, const ColorImage& color, const RgbdCalibration& calibration,
                                const RegistrationConfig& config);
 

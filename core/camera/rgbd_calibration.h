@@ -24,7 +24,7 @@ struct DisparityLine {
 struct RgbdCalibration {
   PinholeCamera ir;
   PinholeCamera rgb;
-  Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< m
+  Eigen::Isometry3d T_rgb_ir = Eigen::Isometry3d::Identity();  ///< p_rgb = T_rgb_ir * p_ir, m
   std::optional<DisparityLine> disparity = std::nullopt;       ///< empty: kinect/disparity.h
   LensDistortion ir_lens = {}, rgb_lens = {};                  ///< the device's
 

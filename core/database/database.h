@@ -65,7 +65,7 @@ class Database {
   /// Unit vector from the view's camera to the hand's bounding square's center.
   const Eigen::Vector3d& box_ray(int entry) const { return box_rays_[entry]; }
   Side side() const { return header_.side; }
-  /// Of the inputs, without the memory mode.
+  /// Hash of the inputs, without the memory mode.
   const std::string& input_hash() const { return header_.input_hash; }
   /// See DatabaseLayout.
   const std::string& content_hash() const { return content_hash_; }

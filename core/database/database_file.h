@@ -57,9 +57,9 @@ class DatabaseLayout {
   const Section& box_rays() const { return box_rays_; }
   const std::map<int, SizeSections>& sizes() const { return sizes_; }
   int entry_count() const { return static_cast<int>(header_.postures.postures.size()) * kViewCount; }
-  /// In file order, with fields that are not stored.
+  /// Sections in file order, also of fields that are not stored.
   std::vector<Section> sections() const;
-  /// Of angles, box rays, labels and fields. Independent of the memory mode.
+  /// Hash of angles, box rays, labels and fields. Memory modes do not change it.
   std::string content_hash() const;
 
   /// Writes the header with hashes.

@@ -7,7 +7,7 @@
 
 namespace glovebench {
 
-/// In 1/kFieldScale px a straight step is 3, a diagonal one 4.
+/// Distances are in 1/kFieldScale px: 3 for a straight step, 4 for a diagonal one.
 inline constexpr int kFieldScale = 3;
 
 /// Distances to `color` by two-pass chamfering, at most `cap`.

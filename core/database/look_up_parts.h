@@ -42,7 +42,7 @@ class EntryFields {
  public:
   /// Throws: Error if the query's size is not loaded.
   EntryFields(const Database& database, const LabelImage& query);
-  /// As Database::fields; undefined for colors that the query lacks. Valid until the next call.
+  /// As Database::fields, undefined for colors that the query lacks. Valid until the next call.
   const uint8_t* of(int entry);
 
  private:

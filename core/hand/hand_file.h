@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// From `glovebench calibrate hand`.
+/// A hand that `glovebench calibrate hand` measured.
 struct MeasuredHand {
   Side side = Side::right;
   HandShape shape;

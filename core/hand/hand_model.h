@@ -39,7 +39,7 @@ class HandModel {
   /// The right hand's; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const HandShape& shape() const { return shape_; }
-  /// Of cut mesh, weights and skeleton.
+  /// Hash of cut mesh, weights and skeleton.
   const std::string& hash() const { return hash_; }
 
  private:

@@ -41,8 +41,8 @@ struct RecordingEntry {
 
 std::string path_in_recording(const std::string& folder, const std::string& name);
 
-/// By time, then depth first, then in the index's order.
-/// Throws: Error if malformed or if a file is listed twice.
+/// Images by time. At equal times: depth first, then in the index's order.
+/// Throws: Error if it is malformed or lists a file twice.
 std::vector<RecordingEntry> parse_recording_index(std::string_view content, const std::string& folder);
 
 /// Checks sizes and headers: a bad one would make fakenect end the program.

@@ -13,7 +13,7 @@ namespace glovebench {
 /// Throws: Error if the distortion folds the image.
 void require_unfolded(const PinholeCamera& camera, const LensDistortion& lens);
 
-/// For images of the camera's size.
+/// Undistorts images of the camera's size.
 class Rectification {
  public:
   /// Throws: Error as `require_unfolded`.

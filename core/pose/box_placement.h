@@ -9,7 +9,7 @@
 
 namespace glovebench {
 
-/// In continuous image coordinates: a pixel extends 0.5 px from its center.
+/// Continuous image coordinates: a pixel extends 0.5 px from its center.
 struct ImageSquare {
   Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
   double side_px = 0;

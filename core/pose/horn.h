@@ -11,7 +11,7 @@ namespace glovebench {
 std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> from,
                                               std::span<const Eigen::Vector3f> to);
 
-/// Of the largest eigenvalue; unit length, either sign.
+/// Unit eigenvector of the largest eigenvalue, either sign.
 Eigen::Vector4d largest_eigenvector(const Eigen::Matrix4d& matrix);
 
 }  // namespace glovebench

@@ -89,7 +89,7 @@ struct ShadowHandTargets {
   std::array<bool, kShadowActuatorCount> actuator_clamped{};
 };
 
-/// From the joints'.
+/// Computes the motors' targets from the joints'.
 void make_actuators(ShadowHandTargets& hand);
 
 /// Each joint takes its source's angle, clamped. The coupling splits the clamped J1 + J2.

@@ -20,7 +20,7 @@ class TestFingertips {
     tips_.row(2) = (0.0495 - palm.row(2).array()).matrix();
   }
   const Tips& in_hand() const { return tips_; }
-  /// In WRJ2's frame.
+  /// In the frame of WRJ2, fixed to the forearm.
   Tips in_forearm() const {
     const Tips palm = in_palm();
     const double bend = q_[22], side = q_[23];

@@ -16,7 +16,7 @@ struct ColorModel {
   std::array<int, 3> pooled = {1, 1, 1};
 };
 
-/// From labeled views under several lightings.
+/// Builds a color table from labeled views under several lightings.
 class ColorCalibration {
  public:
   explicit ColorCalibration(ColorSpace space = ColorSpace::yuv) : space_(space) {}

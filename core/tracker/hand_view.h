@@ -5,7 +5,7 @@
 
 namespace glovebench {
 
-/// For the fit of pose and posture.
+/// Input of the fit of pose and posture.
 struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
   HandMask mask;

@@ -67,7 +67,7 @@ struct TrackResult {
   RecycledVector<Match> matches;
 
   EstimateParts has;
-  /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand.
+  /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand in this posture and pose.
   RecycledVector<std::optional<Eigen::Vector3d>> joints;
 
   bool ambiguous = false;  ///< matches' rotations differ by over 60 degrees
@@ -81,7 +81,7 @@ struct TrackResult {
   std::optional<double> misfit;
 };
 
-/// In the order of a frame.
+/// Stages in the order of a frame.
 enum class Stage {
   registration,
   segmentation,

@@ -30,7 +30,7 @@ struct LookupConfig {
 };
 
 struct SmoothingConfig {
-  double posture_keep = 0.75;  ///< weight of the previous value, [0, 1)
+  double posture_keep = 0.75;  ///< x = keep * previous + (1 - keep) * new, [0, 1)
   double pose_keep = 0.0;      ///< likewise (rotation: slerp), [0, 1)
   int forget_after = 15;       ///< lost frames before a restart, >= 1
 };
@@ -81,7 +81,7 @@ struct ConfigField {
   std::string range;  ///< in words
   std::string value;  ///< JSON
 };
-/// By stage.
+/// In the order of the tracker's stages.
 std::vector<ConfigField> config_fields(const TrackerConfig& config);
 
 }  // namespace glovebench

@@ -22,7 +22,7 @@ std::string man_page(const CommandText& program, const std::string& version);
 /// Lines `WORD<tab>DESCRIPTION` for the word after `line`. Empty for file names, which the shell completes.
 std::string completions(const CommandText& program, const std::vector<std::string>& line);
 
-/// For bash, zsh or fish.
+/// For bash, zsh or fish. Calls `completions`.
 std::string completion_script(std::string_view shell);
 
 }  // namespace glovebench::eval

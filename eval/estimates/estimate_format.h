@@ -20,7 +20,8 @@ struct EstimateSequence {
   std::vector<int64_t> timestamps_us;
   std::vector<TrackStatus> statuses;
   std::vector<size_t> begins;  ///< of each frame's numbers
-  /// Of each tracked frame, as far as known: angles (22, rad), position (m), quaternion w x y z, joints (m).
+  /// Of each tracked frame: 22 angles (rad), position (m) and quaternion w x y z, joints (m), as far as it has
+  /// them.
   std::vector<double> numbers;
 
   size_t size() const { return timestamps_us.size(); }

@@ -69,7 +69,7 @@ inline std::string angles_text(std::span<const HandFrame> frames, const std::str
 
 using Move = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 
-/// As glovebench-joints; a point that our skeleton lacks is at the wrist.
+/// The joints of an order as glovebench-joints; a point that we lack is at the wrist.
 inline std::string joints_text(
     std::span<const HandFrame> frames, const render::Subject& subject, const JointOrder& order,
     const Move& move = [](const Eigen::Vector3d& p) { return p; }, const std::string& frame = "camera") {

@@ -19,7 +19,7 @@ struct JointOrder {
   std::string name;  ///< empty: unknown
   std::vector<NamedJoint> joints;
 
-  /// By name or number. Empty for another word.
+  /// Index of a joint by its name or number. Empty for another word.
   std::optional<size_t> find(std::string_view word) const;
 };
 std::span<const JointOrder> joint_orders();

@@ -33,7 +33,7 @@ struct Baseline {
 /// Throws: Error, or Incomparable without a baseline or with edited results.
 Baseline load_baseline(const std::string& folder);
 
-/// Of provenance.json.
+/// The part of provenance.json that is read.
 struct Provenance {
   std::string results_hash;
   reports::StageTimes times;

@@ -15,7 +15,7 @@ struct Deviation {
   std::string_view instead;                 ///< what `change` does, or why nothing is measured
   void (*change)(RunSpec& spec) = nullptr;  ///< null: not measured
 };
-/// In order of tracker stages, then experiments.
+/// In the order of the tracker's stages, then of the experiments.
 std::span<const Deviation> deviations();
 
 /// `runs`: by trajectory, with the setting "" (profile `paper`) and the name of each measured deviation.

@@ -76,7 +76,7 @@ Sample sample_of(const Selection& runs,
 Sample sample_of(const Selection& runs, std::string_view metric);
 /// [trajectory][seed].
 std::vector<std::vector<reports::SequenceMetrics>> sequences_of(const Selection& runs);
-/// Of a stage, or of whole frames, over all frames and runs.
+/// Times of a stage, or of whole frames, over all frames and runs.
 std::vector<double> times_ms(const Selection& runs, std::string_view stage = "");
 std::optional<double> covered_percent(const Selection& runs);
 std::optional<double> tracked_percent(const Selection& runs);

@@ -12,7 +12,7 @@
 namespace glovebench::render {
 
 /// Variance per |grad z| of `gradient`, m px: standard deviation 1.4 mm at 45 degrees and 0.7 m (Nguyen et al.
-/// 2012).
+/// 2012). Not tuned.
 inline constexpr double kGradientGain = 0.0014 * 0.0014 / (0.7 / 575.816);
 
 struct KinectNoiseConfig {

@@ -25,12 +25,12 @@ class CapsuleHand {
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// Of the right hand, which a left hand mirrors.
+  /// Of the right hand; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex (glove, folds), m. NaN at the cuff's flat end.
   const std::vector<double>& levels() const { return levels_; }
-  /// Of vertex `v`.
+  /// The field that vertex `v` follows.
   FieldSample field_at(size_t v, const std::vector<Capsule>& placed, const Eigen::Vector3d& p) const;
 
  private:

@@ -35,7 +35,7 @@ struct ClaimVerdict {
 /// False for a quick run, or with another configuration than the paper's.
 bool are_claims_judged(const RunResult& result);
 
-/// Of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
+/// Measures of Figures 4 to 6 and studies, if run. Empty if claims are not judged.
 std::vector<Measure> all_measures(const RunResult& result);
 
 /// Two-sided p-value of a broken rule: 1 if the number breaks it, 0.05 if the 95% interval touches the bound. In
@@ -43,10 +43,10 @@ std::vector<Measure> all_measures(const RunResult& result);
 /// the bound, or half its width if longer.
 double p_value(const Rule& rule, double value, const ConfidenceInterval& interval);
 
-/// In the order of `claims` (reports/README.md, "Claims").
+/// Judges (reports/README.md, "Claims"), in the order of the claims.
 std::vector<ClaimVerdict> judge(const std::vector<Claim>& claims, const std::vector<Measure>& measures);
 
-/// Without withdrawn claims.
+/// Outcomes of required claims that are not withdrawn.
 struct RequiredClaims {
   int hold = 0;
   int inconclusive = 0;  ///< part of the interval breaks the rule

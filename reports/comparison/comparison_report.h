@@ -19,7 +19,7 @@ struct ComparisonReport {
   std::vector<std::string> scripts;
 };
 
-/// For a terminal: rows, then counts of verdicts. `all_rows`: not only changed ones.
+/// For a terminal: changed rows or all, then counts of verdicts.
 std::string comparison_table(const ComparisonReport& report, bool all_rows, size_t columns = kTerminalColumns);
 std::string comparison_markdown(const ComparisonReport& report);
 std::string comparison_json(const ComparisonReport& report);  ///< reports/schema/comparison.schema.json

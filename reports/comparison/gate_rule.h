@@ -15,8 +15,8 @@ namespace glovebench::reports {
 
 /// What another machine can cause; for a share, at least two frames. `frames`: of all seeds.
 double least_effect(const Metric& metric, int frames);
-/// From `floor` (may be null), else the default; at least least_effect. Grows if a result has fewer `seeds` than
-/// the floor.
+/// The noise floor's effect or the default; at least least_effect. Grows if a result has fewer `seeds` than the
+/// floor. `floor` may be null.
 double minimum_effect(const Metric& metric, std::string_view experiment, int frames, int seeds,
                       const NoiseFloor* floor);
 

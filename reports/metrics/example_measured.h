@@ -1,6 +1,6 @@
 #pragma once
 
-// For a test that computes metrics in another language.
+// For a test that computes the metrics in another language.
 
 #include "core/base/math.h"
 #include "core/base/random.h"

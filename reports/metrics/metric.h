@@ -29,7 +29,7 @@ enum class Needs {
 /// One of `of_tracked`, `of_any`, `of_record` and `of_experiment` is given, the others are null. With a gate, less
 /// is better. reports/metrics/X_metrics.cpp defines `std::vector<Metric> X_metrics()`.
 struct Metric {
-  /// For changes of the mean, in the metric's unit.
+  /// Limits for changes of the mean, in the metric's unit.
   struct Gate {
     /// Used without a noise floor.
     double minimum_effect;
@@ -66,7 +66,7 @@ struct Metric {
 
 /// All metrics, by place.
 std::span<const Metric> metrics();
-/// In the order of FrameRecord::values.
+/// Columns, in the order of FrameRecord::values.
 std::span<const Metric> frame_metrics();
 std::vector<std::string> frame_metric_keys();
 std::span<const Metric> gated_metrics();

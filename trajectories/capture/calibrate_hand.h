@@ -18,7 +18,7 @@ class HandParameters {
   const Eigen::MatrixXd& frame_constraints() const { return frame_constraints_; }
 
   CaptureHand hand(const Eigen::VectorXd& parameters) const;
-  /// Of the markers (capture frame, three rows each) by the parameters.
+  /// Derivative of the markers (capture frame, three rows each) by the parameters.
   Eigen::MatrixXd jacobian(const CaptureHand& hand, const HandState& state) const;
 
  private:

@@ -14,7 +14,7 @@ struct DdsAccess {
   bool operator==(const DdsAccess&) const = default;
 };
 
-/// Topic names (ROS 2's prefix is `rt/`). `hand` and `wrist`: JointTrajectory.
+/// Topic names, with ROS 2's prefix `rt/`. `hand` and `wrist`: JointTrajectory.
 struct Topics {
   const char* hand;
   const char* wrist;

@@ -14,7 +14,7 @@ struct DdsServerOptions {
   DdsAccess access;
   ServedRobot robot;
   std::string log;
-  /// Of the log's last state, s.
+  /// Largest age of the log's last state, s.
   double max_log_age_s = kMaxLogAge;
   CommandLimits limits;
   std::function<bool()> stopping;  ///< polled at 100 Hz; true ends

@@ -68,8 +68,8 @@ class MeasuredRobot {
 /// A joint this far beyond a limit, or J1 beyond J2, counts as at the limit.
 inline constexpr double kMeasuredNoise = 0.0175;  // rad, 1 degree
 
-/// For `CommandGuard::start_from`. `T_base_hand` is used only without an arm.
-/// Throws: Error if a joint is farther than kMeasuredNoise beyond a limit.
+/// Targets for `CommandGuard::start_from`. `T_base_hand` is used only without an arm.
+/// Throws: Error if a joint exceeds a limit by more than kMeasuredNoise.
 RobotTargets targets_at(const MeasuredState& state, const Eigen::Isometry3d& T_flange_wrist,
                         const Eigen::Isometry3d& T_base_hand);
 

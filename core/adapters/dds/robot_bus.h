@@ -33,7 +33,7 @@ class RobotBus {
   virtual int64_t start(CommandGuard& guard, const RobotCommand& command) = 0;
   /// `arrived_us`: when the frame was complete, since 1970.
   virtual void send(const RobotCommand& safe, int64_t arrived_us) = 0;
-  /// As DdsSink::finish.
+  /// Waits up to 1 s until listeners have all messages.
   virtual void finish() = 0;
 };
 

@@ -46,7 +46,7 @@ class UnboundedWriter {
   dds_entity_t participant_, writer_ = 0;
 };
 
-/// For this process and its children.
+/// Gives this process and its children a private loopback bus. `more`: configuration.
 inline void use_loopback_dds(const std::string& more = "") {
   const std::string uri =
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"

@@ -13,8 +13,8 @@ namespace glovebench {
 class OniPlayer {
  public:
   virtual ~OniPlayer() = default;
-  /// By the color camera's fields of view. Assumes that depth is registered to color.
-  /// Throws: Error if fields of view are missing, or depth and color differ in shape.
+  /// By the color camera's fields of view. Takes depth as registered to color: recordings do not say.
+  /// Throws: Error if the fields of view are missing, or depth and color have different shapes.
   virtual RgbdCalibration calibration() const = 0;
   virtual double steps_per_m() const = 0;  ///< of depth
 

@@ -5,7 +5,7 @@
 
 #include "core/base/image.h"
 
-/// Of test_camera_driver.cpp. Words may follow its name.
+/// The camera of test_camera_driver.cpp. Words may follow its name, "test_camera".
 namespace glovebench::test_camera {
 
 inline constexpr std::string_view kName = "test_camera", kMirrored = "mirrored", kFine = "100um", kYuv = "yuv",
