@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,16 @@ class CommandTest : public testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_fine(run_glovebench(arguments));
     return nlohmann::json::parse(read_file(path(output) + "/results.json"));
+  }
+  /// A cell of one of a report's tables; throws without it. `column`: its key.
+  static nlohmann::json cell_of(const nlohmann::json& report, const std::string& study, const std::string& column,
+                                size_t row = 0) {
+    for (const nlohmann::json& each : report.at("studies")) {
+      const nlohmann::json& table = each.at("tables").at(0);
+      for (size_t c = 0; each.at("name") == study && c < table.at("columns").size(); ++c)
+        if (table["columns"][c].at("key") == column) return table.at("rows").at(row).at(c);
+    }
+    throw std::runtime_error("no " + column + " in " + study);
   }
   ProgramRun track(const std::string& recording, const std::string& database, const std::string& output,
                    const std::vector<std::string>& more = {}) const {

@@ -8,6 +8,7 @@
 #include "eval/command_test.h"
 #include "eval/program.h"
 #include "eval/run.h"
+#include "eval/streaming.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -152,20 +153,13 @@ TEST_F(ProgramsLong, LostFramesAreCountedWithTheirReasons) {
   EXPECT_THAT(read_file(path("out/results.json")), HasSubstr("\"missing\""));
 }
 
-json streaming_cell(const json& timings, size_t row, std::string_view column) {
-  const json& table = timings.at("studies").at(0).at("tables").at(0);
-  for (size_t c = 0; c < table.at("columns").size(); ++c)
-    if (table["columns"][c].at("key") == column) return table.at("rows").at(row).at(c);
-  throw std::runtime_error("no such column");
-}
-
 TEST_F(ProgramsLong, HaveNoTimeWithoutAnAnswer) {
   const ProgramRun run = run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power",
                                          "-o", path("out"), "--streaming", "--method", "exec:false"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const json timings = json::parse(read_file(path("out/timings.json")));
-  EXPECT_TRUE(streaming_cell(timings, 0, "tracker_ms").is_null());
-  EXPECT_TRUE(streaming_cell(timings, 0, "age_ms").is_null());
+  EXPECT_TRUE(cell_of(timings, kStreamingStudy, "tracker_ms").is_null());
+  EXPECT_TRUE(cell_of(timings, kStreamingStudy, "age_ms").is_null());
 }
 
 TEST_F(ProgramsLong, JointsAloneAreMeasured) {
@@ -194,7 +188,7 @@ TEST_F(ProgramsLong, StandBesideOursInAReproduction) {
     EXPECT_THAT(trackers, ElementsAre("paper", "recommended", "the program", "the program, bare hand"));
   }
   EXPECT_EQ(tables.at(1).at("name"), "streaming");
-  EXPECT_LT(streaming_cell(json::parse(read_file(path("out/timings.json"))), 2, "dropped_percent"), 50)
+  EXPECT_LT(cell_of(json::parse(read_file(path("out/timings.json"))), kStreamingStudy, "dropped_percent", 2), 50)
       << "the start is not the first frame's time";
   const json& table = tables[0];
   EXPECT_LT(table["rows"][1][2].get<double>(), 20) << "our joints";

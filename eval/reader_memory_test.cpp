@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "ci/build_paths.h"
 #include "core/adapters/dds/server/server_log.h"
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
+#include "core/base/input_file.h"
 #include "core/base/parse_json.h"
 #include "core/base/sanitizers.h"
 #include "core/calibration/board_views.h"
@@ -137,21 +139,8 @@ motion::Trajectory small_trajectory() {
   return trajectory;
 }
 
-constexpr const char* kWebxr =
-    R"({"format": "glovebench-webxr-joints", "version": 1, "frames": [{"timestamp_us": 0, "joints_m": {"wrist": [0, 0, 0]}}]})";
-constexpr const char* kScript =
-    R"({"format": "glovebench-motion-script", "version": 1, "name": "S", "description": "", "seed": 1, "frame_count": 2,
-"postures": [{"frame": 0, "blend": {"open": 1}}, {"frame": 1, "blend": {"open": 1}}],
-"wrist": [{"frame": 0, "flexion_deg": 0, "abduction_deg": 0}, {"frame": 1, "flexion_deg": 0, "abduction_deg": 0}],
-"poses": [{"frame": 0, "position_mm": [0, 0, 700], "yaw_deg": 0, "pitch_deg": 0, "roll_deg": 0},
-{"frame": 1, "position_mm": [0, 0, 700], "yaw_deg": 0, "pitch_deg": 0, "roll_deg": 0}]})";
-constexpr const char* kSuite =
-    R"({"format": "glovebench-suite", "version": 1, "name": "s", "description": "", "seeds": [1],
-"experiments": [{"trajectory": "Tr4", "truth": "source", "databases": ["DB_open_power"], "subject": 1,
-"noise": {"model": "none", "factor": 1}, "frames": {"first": 0, "count": 1}}]})";
-constexpr const char* kColors =
-    R"({"format": "glovebench-glove-colors", "version": 1, "colors_rgb": [[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3],
-[1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3], [1, 2, 3]]})";
+/// An accepted text, kept for fuzzing.
+std::string corpus(const std::string& name) { return read_file(build_paths::source("ci/corpora/" + name)); }
 
 constexpr const char* kJoints =
     R"({"format": "glovebench-joints", "version": 1, "order": "webxr", "frame": "camera",
@@ -181,19 +170,21 @@ std::vector<Reader> json_readers() {
       {"calibration", [=](auto& text) { calibration_from_text(text, w); },
        to_json(nominal_kinect_calibration()).dump()},
       {"hand", [=](auto& text) { parse_hand(text, w); }, hand_text(MeasuredHand{.shape = {}, .views = 1})},
-      {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, kColors},
+      {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, corpus("glove_colors/ten")},
       {"trajectory", [=](auto& text) { motion::parse_trajectory(text, w); }, canonical_text(small_trajectory())},
       {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); },
        motion::canonical_text(gestures())},
       {"marker layout", [=](auto& text) { motion::parse_marker_layout(text, w); },
        R"({"format": "glovebench-marker-layout", "version": 1, "markers": {"a": "wrist"}})"},
-      {"webxr", [=](auto& text) { motion::find_marker_format("webxr").markers(text, Side::right, w); }, kWebxr},
+      {"webxr", [=](auto& text) { motion::find_marker_format("webxr").markers(text, Side::right, w); },
+       corpus("format_webxr/two_frames")},
       {"joints", [=](auto& text) { estimate_format("joints").read(text, {}, w); }, kJoints},
       {"joint map", [=](auto& text) { eval::parse_joint_map(text, w); },
        R"({"format": "glovebench-joint-map", "version": 1, "joints": ["wrist", "thumb-tip", "ring-finger-tip",
 "index-finger-tip"]})"},
-      {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); }, kScript},
-      {"suite", [=](auto& text) { eval::parse_suite(text, w); }, kSuite},
+      {"motion script", [=](auto& text) { motion::parse_motion_script(text, gestures(), w); },
+       corpus("motion_script/exit")},
+      {"suite", [=](auto& text) { eval::parse_suite(text, w); }, corpus("suite/full_entry")},
       {"results", [=](auto& text) { reports::parse_results(text, w); }, results_json(result)},
       {"timings", [=](auto& text) { reports::parse_stage_times(text, w); }, timings_json(timings)},
       {"noise floor", [=](auto& text) { reports::parse_noise_floor(text, w); }, noise_floor_json(floor)},

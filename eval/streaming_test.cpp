@@ -67,20 +67,10 @@ TEST(Streaming, WithoutFramesThereIsNothing) {
 
 class StreamingLong : public CommandTest {};
 
-json streaming_rows(const json& results) {
-  for (const json& study : results.at("studies"))
-    if (study.at("name") == kStreamingStudy) return study.at("tables").at(0);
-  return {};
-}
-
-double cell_of(const json& table, const std::string& key) {
-  const json& columns = table.at("columns");
-  for (size_t c = 0; c < columns.size(); ++c)
-    if (columns[c].at("key") == key) return table.at("rows").at(0).at(c);
-  throw std::runtime_error("no column " + key);
-}
-
 TEST_F(StreamingLong, LateAnswersAreWorseAndTheUsualErrorsStay) {
+  const auto streaming = [](const json& results, const char* column) {
+    return cell_of(results, kStreamingStudy, column).get<double>();
+  };
   const auto with = [&](const std::string& output, const std::string& ms) {
     return run_trajectory("good.json", output, {"--method", "articulated", "--streaming", "--tracker-ms", ms});
   };
@@ -90,26 +80,24 @@ TEST_F(StreamingLong, LateAnswersAreWorseAndTheUsualErrorsStay) {
   EXPECT_EQ(fast.at("protocol"), usual.at("protocol"));
   // At 25 moments, 8.3 ms apart; frames are 66.7 ms apart. With 5 ms the first moment has no answer, and the
   // moments of the other frames have that of the frame before.
-  EXPECT_NEAR(cell_of(streaming_rows(none), "age_ms"), 700.0 / 25, 0.01);
-  EXPECT_NEAR(cell_of(streaming_rows(fast), "age_ms"), 900.0 / 24, 0.01);
+  EXPECT_NEAR(streaming(none, "age_ms"), 700.0 / 25, 0.01);
+  EXPECT_NEAR(streaming(fast, "age_ms"), 900.0 / 24, 0.01);
   const json later = with("later", "62");
-  EXPECT_GT(cell_of(streaming_rows(later), "streaming_position_error_mm"),
-            cell_of(streaming_rows(fast), "streaming_position_error_mm") + 1)
+  EXPECT_GT(streaming(later, "streaming_position_error_mm"), streaming(fast, "streaming_position_error_mm") + 1)
       << "5 and 62 ms differ";
-  EXPECT_EQ(cell_of(streaming_rows(fast), "dropped_percent"), 0);
+  EXPECT_EQ(streaming(fast, "dropped_percent"), 0);
   // The hand moves by 5 mm a frame, and its estimates are nearly true: only their age counts.
-  EXPECT_LT(cell_of(streaming_rows(fast), "position_error_mm"), 0.3);
-  EXPECT_NEAR(cell_of(streaming_rows(fast), "streaming_position_error_mm"), 5 * 900.0 / 24 / 66.667, 0.3);
+  EXPECT_LT(streaming(fast, "position_error_mm"), 0.3);
+  EXPECT_NEAR(streaming(fast, "streaming_position_error_mm"), 5 * 900.0 / 24 / 66.667, 0.3);
   // 0 to 150 ms; 2 (133 ms) is next; 3 arrives before that is finished.
-  EXPECT_EQ(cell_of(streaming_rows(slow), "dropped_percent"), 25);
-  EXPECT_GT(cell_of(streaming_rows(slow), "streaming_position_error_mm"),
-            cell_of(streaming_rows(fast), "streaming_position_error_mm") + 4);
+  EXPECT_EQ(streaming(slow, "dropped_percent"), 25);
+  EXPECT_GT(streaming(slow, "streaming_position_error_mm"), streaming(fast, "streaming_position_error_mm") + 4);
 }
 
 TEST_F(StreamingLong, MeasuredTimesStandApartFromResults) {
   const json results = run_trajectory("good.json", "out", {"--streaming"});
   EXPECT_EQ(results.at("configuration").at("streaming"), "measured");
-  EXPECT_THROW(cell_of(streaming_rows(results), "streaming_position_error_mm"), std::runtime_error);
+  EXPECT_THROW(cell_of(results, kStreamingStudy, "streaming_position_error_mm"), std::runtime_error);
   EXPECT_THAT(read_file(path("out/timings.json")), HasSubstr("streaming_position_error_mm"));
   EXPECT_THAT(read_file(path("out/summary.md")), HasSubstr("## Streaming accuracy"));
 }

@@ -91,8 +91,11 @@ TEST(Icp, points_on_one_line_are_degenerate) {
     line.push_back({{-0.05f + 0.002f * i, 0.001f * i, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
     spot.push_back({{0.01f, 0.02f, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
   }
-  EXPECT_EQ(align(test_hand(), posed(), line, start, {}).status, AlignmentStatus::degenerate_cloud);
-  EXPECT_EQ(align(test_hand(), posed(), spot, start, {}).status, AlignmentStatus::degenerate_cloud);
+  for (const AlignmentEntry& alignment : alignments()) {
+    const IcpConfig config{.algorithm = std::string(alignment.name)};
+    EXPECT_EQ(align(test_hand(), posed(), line, start, config).status, AlignmentStatus::degenerate_cloud);
+    EXPECT_EQ(align(test_hand(), posed(), spot, start, config).status, AlignmentStatus::degenerate_cloud);
+  }
 }
 
 TEST(Icp, a_cloud_of_colors_that_face_away_shares_none) {
@@ -102,9 +105,11 @@ TEST(Icp, a_cloud_of_colors_that_face_away_shares_none) {
   inside.translation() = -Eigen::Vector3d(0.0003, -0.0091, 0.0078);
   RecycledVector<LabeledPoint> cloud;
   for (int i = 0; i < 50; ++i) cloud.push_back({{0.01f * (i % 7), 0.01f * (i % 5), 0.6f}, 7});
-  const Alignment alignment = align(test_hand(), open, cloud, inside, {});
-  EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color);
-  EXPECT_EQ(alignment.T_camera_hand.matrix(), inside.matrix());
+  for (const AlignmentEntry& entry : alignments()) {
+    const Alignment alignment = align(test_hand(), open, cloud, inside, {.algorithm = std::string(entry.name)});
+    EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color) << entry.name;
+    EXPECT_EQ(alignment.T_camera_hand.matrix(), inside.matrix()) << entry.name;
+  }
   for (int i = 0; i < 3; ++i) cloud[i].label = 1;  // three points of a color that is seen
   EXPECT_NE(align(test_hand(), open, cloud, inside, {}).status, AlignmentStatus::no_shared_color);
 }

@@ -65,29 +65,6 @@ TEST(RobustIcp, fewer_than_three_points_are_too_few) {
   }
 }
 
-TEST(RobustIcp, points_on_one_line_or_spot_are_degenerate) {
-  const Eigen::Isometry3d start = test_pose({0, 0, 0.7});
-  RecycledVector<LabeledPoint> line, spot;
-  for (int i = 0; i < 50; ++i) {
-    line.push_back({{-0.05f + 0.002f * i, 0.001f * i, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
-    spot.push_back({{0.01f, 0.02f, 0.7f}, static_cast<uint8_t>(1 + i % 5)});
-  }
-  EXPECT_EQ(align(test_hand(), posed(), line, start, kRobust).status, AlignmentStatus::degenerate_cloud);
-  EXPECT_EQ(align(test_hand(), posed(), spot, start, kRobust).status, AlignmentStatus::degenerate_cloud);
-}
-
-TEST(RobustIcp, a_cloud_of_colors_that_face_away_shares_none) {
-  // A camera inside the palm of the open hand sees no face of color 7.
-  const PosedHand open = test_hand().pose(Posture::Zero());
-  Eigen::Isometry3d inside = Eigen::Isometry3d::Identity();
-  inside.translation() = -Eigen::Vector3d(0.0003, -0.0091, 0.0078);
-  RecycledVector<LabeledPoint> cloud;
-  for (int i = 0; i < 50; ++i) cloud.push_back({{0.01f * (i % 7), 0.01f * (i % 5), 0.6f}, 7});
-  const Alignment alignment = align(test_hand(), open, cloud, inside, kRobust);
-  EXPECT_EQ(alignment.status, AlignmentStatus::no_shared_color);
-  EXPECT_EQ(alignment.T_camera_hand.matrix(), inside.matrix());
-}
-
 TEST(RobustIcp, points_that_are_not_finite_take_no_part) {
   const Eigen::Isometry3d truth = test_pose({0.02, 0.03, 0.7});
   RecycledVector<LabeledPoint> cloud = true_cloud(truth);
