@@ -11,8 +11,8 @@
 
 #include "core/base/enum_names.h"
 #include "core/database/database_cache.h"
-#include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
+#include "core/hand/posture.h"
 #include "core/segmentation/color_table.h"
 #include "core/tracker/tracker.h"
 #include "render/synthetic_kinect.h"

@@ -12,7 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/text.h"
-#include "core/tracker/method_names.h"
+#include "core/tracker/tracker_config.h"
 #include "eval/program.h"
 #include "eval/run_bytes.h"
 #include "eval/studies/study.h"

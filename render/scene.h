@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
+#include "core/hand/posture.h"
 #include "render/glove_colors.h"
 
 namespace glovebench::render {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "core/kinect/device.h"
 #include "render/noise/noise_model.h"
 #include "render/rgbd_renderer.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "core/tracker/track_result.h"
 #include "reports/results.h"
 

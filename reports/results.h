@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "core/tracker/track_result.h"
 #include "reports/commands.h"
 #include "reports/metrics/metric.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 
 namespace glovebench::trajectories {
 

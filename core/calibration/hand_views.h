@@ -6,7 +6,8 @@
 #include <string>
 
 #include "core/methods/method.h"
-#include "core/tracker/hand_view.h"
+#include "core/pose/articulated_fit.h"
+#include "core/tracker/sighting.h"
 
 namespace glovebench::calibration {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/math.h"
+#include "core/pose/articulated_step.h"
 #include "core/pose/surface_matcher.h"
-#include "core/pose/surface_pull.h"
 
 namespace glovebench::calibration {
 namespace {

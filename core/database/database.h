@@ -11,10 +11,10 @@
 #include "core/database/database_file.h"
 #include "core/database/distance_field.h"
 #include "core/database/field_rows.h"
-#include "core/database/posture_set.h"
 #include "core/database/tiny_image.h"
 #include "core/database/view_sphere.h"
 #include "core/hand/hand_model.h"
+#include "core/hand/posture.h"
 
 namespace glovebench {
 

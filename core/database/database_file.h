@@ -9,8 +9,8 @@
 
 #include "core/base/mapped_memory.h"
 #include "core/database/field_rows.h"
-#include "core/database/posture_set.h"
 #include "core/database/view_sphere.h"
+#include "core/hand/posture.h"
 
 namespace glovebench {
 

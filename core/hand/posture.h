@@ -1,8 +1,11 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/enum_names.h"
 
@@ -53,5 +56,20 @@ double posture_distance(const Posture& a, const Posture& b);
 
 enum class Side { right, left };
 constexpr auto names_of(Side) { return std::to_array<std::string_view>({"right", "left"}); }
+
+struct HandFrame {
+  int64_t timestamp_us = 0;
+  Posture posture = Posture::Zero();                                ///< rad
+  Eigen::Isometry3d T_camera_hand = Eigen::Isometry3d::Identity();  ///< m; IR camera
+};
+
+enum class Appearance { glove, skin };
+constexpr auto names_of(Appearance) { return std::to_array<std::string_view>({"glove", "skin"}); }
+
+struct PostureSet {
+  std::string name;
+  std::vector<std::string> posture_names;
+  std::vector<Posture> postures;
+};
 
 }  // namespace glovebench

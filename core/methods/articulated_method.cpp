@@ -2,7 +2,8 @@
 // posture follow the points and the outline of the hand.
 
 #include "core/methods/method.h"
-#include "core/tracker/hand_view.h"
+#include "core/pose/articulated_fit.h"
+#include "core/tracker/sighting.h"
 #include "core/tracker/smoothing.h"
 #include "core/tracker/tracker.h"
 

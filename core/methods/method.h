@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
-#include "core/tracker/method_names.h"
 #include "core/tracker/tracker.h"
+#include "core/tracker/tracker_config.h"
 
 namespace glovebench {
 

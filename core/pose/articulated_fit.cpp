@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/pose/articulated_step.h"
 #include "core/pose/surface_matcher.h"
-#include "core/pose/surface_pull.h"
 
 namespace glovebench {
 namespace {

@@ -3,7 +3,8 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "core/hand/hand_motion.h"
+#include "core/hand/hand_model.h"
+#include "core/pose/closest_point.h"
 
 namespace glovebench {
 
@@ -27,6 +28,17 @@ struct Pull {
 };
 /// Motion along the pull, per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
+
+/// 1 at 0, 0 from `width` on.
+double tukey_weight(double distance, double width);
+
+struct SurfacePull {
+  Pull pull;                 ///< along the normal inside a face, else along the connection
+  Eigen::Vector3d apart_mm;  ///< from surface to point, hand frame
+  Eigen::Vector3d barycentric;
+};
+SurfacePull surface_pull(const Surface::Face& face, const ClosestPoint& closest, const Eigen::Vector3f& p_hand,
+                         double weight);
 
 /// H step = g.
 struct NormalEquations {

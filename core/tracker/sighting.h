@@ -4,6 +4,7 @@
 #include "core/camera/registration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/kinect/device.h"
+#include "core/pose/hand_mask.h"
 #include "core/segmentation/color_table.h"
 #include "core/tracker/track_result.h"
 #include "core/tracker/tracker_config.h"
@@ -31,5 +32,14 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
 /// `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
+
+/// Input of the fit of pose and posture.
+struct HandView {
+  RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
+  HandMask mask;
+
+  /// `seen` must be `tracked`. Reuses memory.
+  void assign(const Sighting& seen, const DeviceFrame& frame);
+};
 
 }  // namespace glovebench

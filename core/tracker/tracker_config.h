@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,9 +11,15 @@
 #include "core/database/look_up.h"
 #include "core/pose/alignment.h"
 #include "core/segmentation/color_table.h"
-#include "core/tracker/method_names.h"
 
 namespace glovebench {
+
+inline constexpr std::string_view kPaperMethod = "schroeder2012";
+/// "exec:COMMAND" is a program (core/adapters/process). Only the command line may name one.
+inline constexpr std::string_view kProgramPrefix = "exec:";
+inline bool is_program(std::string_view method) { return method.starts_with(kProgramPrefix); }
+/// Sorted: X of each core/methods/X_method.cpp.
+std::span<const std::string_view> method_names();
 
 struct SegmentationConfig {
   ColorSpace color_space = ColorSpace::yuv;

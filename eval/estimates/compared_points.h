@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
 #include "core/hand/hand_model.h"
+#include "core/hand/posture.h"
 #include "core/tracker/track_result.h"
 #include "render/subjects/subject.h"
 

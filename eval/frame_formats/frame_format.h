@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "eval/run.h"
 
 namespace glovebench::eval {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/tracker/method_names.h"
+#include "core/tracker/tracker_config.h"
 #include "eval/streaming.h"
 #include "eval/studies/study.h"
 #include "reports/metrics/metric.h"

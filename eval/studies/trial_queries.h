@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "core/tracker/tracker_config.h"
 #include "eval/workbench.h"
 #include "render/noise/noise_model.h"
