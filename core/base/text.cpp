@@ -84,6 +84,16 @@ std::string excerpt(const nlohmann::json& value) {
   return value.dump();
 }
 
+std::vector<std::string_view> split(std::string_view text, char separator, size_t most) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const size_t end = parts.size() + 1 < most ? text.find(separator) : std::string_view::npos;
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& names) {
   const std::string* nearest = nullptr;
   size_t fewest = word.size() + 1;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <charconv>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,18 @@ std::string quoted_excerpt(std::string_view text);
 
 /// An excerpt of a value. Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
+
+/// The parts between separators, at least one. The last of `most` parts has the rest of the text.
+std::vector<std::string_view> split(std::string_view text, char separator, size_t most = std::string_view::npos);
+
+/// The number that the whole text is, as std::from_chars reads it. Empty for anything else.
+template <typename Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
 
 /// "; did you mean NAME?" for the nearest name (case is ignored) or the shortest that begins with the word. Empty
 /// if none is near, or two are equally good.

@@ -14,6 +14,21 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+TEST(Split, keeps_empty_parts_and_what_is_beyond_the_last) {
+  using Parts = std::vector<std::string_view>;
+  EXPECT_EQ(split("", ','), Parts{""});
+  EXPECT_EQ(split("a,,b,", ','), (Parts{"a", "", "b", ""}));
+  EXPECT_EQ(split("a,b,c", ',', 2), (Parts{"a", "b,c"}));
+}
+
+TEST(NumberIn, reads_the_whole_text_or_nothing) {
+  EXPECT_EQ(number_in<int>("-12"), -12);
+  EXPECT_EQ(number_in<double>("2.5e1"), 25);
+  for (const char* text : {"", " 1", "1 ", "+1", "1.5", "one", "99999999999"})
+    EXPECT_FALSE(number_in<int>(text)) << text;
+  EXPECT_FALSE(number_in<unsigned>("-1"));
+}
+
 TEST(DidYouMean, names_the_nearest) {
   const std::vector<std::string> names = {"run", "record", "render", "track", "trajectories", "DB_open_power"};
   EXPECT_EQ(did_you_mean("rnu", names), "; did you mean run?") << "two letters swapped are one edit";

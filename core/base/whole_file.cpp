@@ -7,13 +7,13 @@
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <regex>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace glovebench {
 namespace {
@@ -27,11 +27,7 @@ std::optional<int> descriptor_of(const fs::path& link) {
   std::error_code error;
   const fs::path folder = fs::canonical(folder_above(link), error);
   if (error || folder != fs::canonical("/proc/self/fd", error)) return std::nullopt;
-  const std::string name = link.filename();
-  int descriptor = -1;
-  const auto [end, failure] = std::from_chars(name.data(), name.data() + name.size(), descriptor);
-  if (failure != std::errc() || end != name.data() + name.size()) return std::nullopt;
-  return descriptor;
+  return number_in<int>(link.filename().native());
 }
 
 /// Unique within this machine: process id and a counter.

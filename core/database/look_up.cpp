@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/base/error.h"
 #include "core/base/registry.h"
+#include "core/base/text.h"
 #include "core/database/look_up_parts.h"
 #include "core/database/tiny_image.h"
 
@@ -17,13 +17,9 @@ constexpr int kMaxKeep = 100'000'000;
 constexpr std::string_view kExact = "exact:";
 
 int parse_number(std::string_view text, std::string_view whole) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw Error("cascade", "\"" + std::string(whole) + "\"", "\"" + std::string(text) + "\"",
-                "SIZE:KEEP[,SIZE:KEEP...] such as 16:500,64:3, or exact:KEEP");
-  }
-  return value;
+  if (const std::optional<int> value = number_in<int>(text)) return *value;
+  throw Error("cascade", "\"" + std::string(whole) + "\"", "\"" + std::string(text) + "\"",
+              "SIZE:KEEP[,SIZE:KEEP...] such as 16:500,64:3, or exact:KEEP");
 }
 
 void check_stage(const CascadeStage& stage, const Cascade& before) {
@@ -82,18 +78,15 @@ Cascade parse_cascade(std::string_view text) {
     return {stage};
   }
   Cascade cascade;
-  std::string_view rest = text;
-  while (true) {
-    const std::string_view stage = rest.substr(0, rest.find(','));
+  for (const std::string_view stage : split(text, ',')) {
     const size_t colon = stage.find(':');
     if (colon == std::string_view::npos) parse_number("", text);
     const CascadeStage parsed{parse_number(stage.substr(0, colon), text),
                               parse_number(stage.substr(colon + 1), text)};
     check_stage(parsed, cascade);
     cascade.push_back(parsed);
-    if (stage.size() == rest.size()) return cascade;
-    rest.remove_prefix(stage.size() + 1);
   }
+  return cascade;
 }
 
 std::string to_string(const Cascade& cascade) {
