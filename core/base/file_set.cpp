@@ -39,13 +39,11 @@ constexpr const char* kRemoved = ".removed";
 
 std::string staged_folder(const std::string& folder) { return folder + "/.staged"; }
 
-std::pair<std::string, ManifestEntry> entry_from(const nlohmann::json& json, const std::string& where) {
-  std::string name = json.at("name");
-  ManifestEntry entry{json.at("bytes"), json.at("hash")};
+std::pair<std::string, ManifestEntry> entry_from(const JsonCursor& file, const std::string& where) {
+  file.expect_keys({"name", "bytes", "hash"});
+  std::string name = file["name"].text();
   path_within(where, name);
-  if (json.size() != 3 || !json.at("bytes").is_number_unsigned())
-    throw Error(where, "files", excerpt(json), "name, bytes and hash");
-  return {std::move(name), std::move(entry)};
+  return {std::move(name), {file["bytes"].unsigned_integer(), file["hash"].text()}};
 }
 
 /// The content of a file if it matches the manifest.
@@ -164,17 +162,14 @@ std::string manifest_json(const Manifest& manifest, uint64_t max_bytes) {
 
 Manifest parse_manifest(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
-  try {
-    JsonCursor(document, where).expect_format(kFormat, 1);
-    Manifest manifest;
-    for (const nlohmann::json& json : document.at("files")) {
-      const auto [place, is_new] = manifest.insert(entry_from(json, where));
-      if (!is_new) throw Error(where, "files", quoted_excerpt(place->first) + " twice", "each file once");
-    }
-    return manifest;
-  } catch (const nlohmann::json::exception& e) {
-    throw Error(where, "manifest", printable(e.what()), "format, version and files with name, bytes and hash");
+  const JsonCursor root(document, where);
+  root.expect_format(kFormat, 1);
+  Manifest manifest;
+  for (const JsonCursor& file : root["files"].items()) {
+    const auto [place, is_new] = manifest.insert(entry_from(file, where));
+    if (!is_new) throw Error(where, "files", quoted_excerpt(place->first) + " twice", "each file once");
   }
+  return manifest;
 }
 
 std::optional<Manifest> read_manifest(const std::string& folder) {

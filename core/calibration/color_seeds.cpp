@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/text.h"
 #include "core/calibration/chroma.h"
 #include "core/segmentation/color_table.h"
 
@@ -29,16 +28,11 @@ Eigen::Array3d rgb_of_cell(size_t cell, ColorSpace space) {
   return axes[0] * rgb_of_chroma(Chroma(axes[1] - 128, axes[2] - 128) / axes[0]);
 }
 
-Chroma seed_from(const nlohmann::json& json, const std::string& where, const std::string& field) {
-  if (!json.is_array() || json.size() != 3) throw Error(where, field, excerpt(json), "an array of 3");
+Chroma seed_from(const JsonCursor& color) {
+  const JsonItems channels = color.items(3);
   Eigen::Array3d rgb;
-  for (size_t i = 0; i < 3; ++i) {
-    const double value = json[i].is_number() ? json[i].get<double>() : -1;
-    if (!(value >= 0 && value <= 255))
-      throw Error(where, fmt::format("{}[{}]", field, i), excerpt(json[i]), "a number of 0..255");
-    rgb[static_cast<Eigen::Index>(i)] = value;
-  }
-  if (!(luma_of(rgb) >= 1)) throw Error(where, field, "black", "a color");
+  for (int i = 0; i < 3; ++i) rgb[i] = channels[i].number(0, 255);
+  if (!(luma_of(rgb) >= 1)) color.fail("black", "a color");
   return chroma_of(rgb);
 }
 
@@ -108,26 +102,14 @@ ColorSeeds seeds_of_table(const ColorTable& table, const std::string& where) {
 }
 
 ColorSeeds parse_glove_colors(std::string_view text, const std::string& where) {
-  const nlohmann::json root = parse_json(text, where);
-  if (!root.is_object()) throw Error(where, "content", excerpt(root), "an object");
-  for (const auto& [key, value] : root.items()) {
-    if (key != "format" && key != "version" && key != "colors_rgb")
-      throw Error(where, "key", excerpt(key), "format, version or colors_rgb");
-  }
-  const nlohmann::json format = root.value("format", nlohmann::json());
-  if (format != kFormat) throw Error(where, "format", excerpt(format), fmt::format("\"{}\"", kFormat));
-  const nlohmann::json version = root.value("version", nlohmann::json());
-  if (version != kVersion) throw Error(where, "version", excerpt(version), fmt::format("{}", kVersion));
-  const nlohmann::json colors = root.value("colors_rgb", nlohmann::json());
-  if (!colors.is_array() || colors.size() != kColorCount)
-    throw Error(where, "colors_rgb", colors.is_array() ? fmt::format("{} colors", colors.size()) : excerpt(colors),
-                fmt::format("{} colors", kColorCount));
+  const nlohmann::json document = parse_json(text, where);
+  const JsonCursor root(document, where);
+  root.expect_keys({"format", "version", "colors_rgb"});
+  root.expect_format(kFormat, kVersion);
+  const JsonItems colors = root["colors_rgb"].items(kColorCount);
   ColorSeeds seeds;
   seeds[0] = Chroma::Zero();
-  for (int label = 1; label <= kColorCount; ++label) {
-    const auto index = static_cast<size_t>(label - 1);
-    seeds[label] = seed_from(colors[index], where, fmt::format("colors_rgb[{}]", index));
-  }
+  for (int label = 1; label <= kColorCount; ++label) seeds[label] = seed_from(colors[label - 1]);
   return seeds;
 }
 

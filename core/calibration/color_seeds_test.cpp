@@ -62,19 +62,19 @@ TEST(ColorSeeds, of_a_list_are_its_chroma) {
 
 TEST(ColorSeeds, refuse_a_damaged_list_in_one_line) {
   EXPECT_THAT(refusal(""), HasSubstr("glove.json: content: found nothing, expected JSON"));
-  EXPECT_THAT(refusal("[]"), HasSubstr("content: found an array of 0"));
+  EXPECT_THAT(refusal("[]"), HasSubstr("top level: found an array of 0, expected an object"));
   EXPECT_THAT(refusal_of("/format", "other"), HasSubstr("format: found \"other\""));
   EXPECT_THAT(refusal_of("/format", nlohmann::json::parse(std::string(100, '[') + std::string(100, ']'))),
               HasSubstr("glove.json: nesting: found deeper nesting"));
-  EXPECT_THAT(refusal_of("/version", 2), HasSubstr("version: found 2, expected 1"));
-  EXPECT_THAT(refusal_of("/names", "x"), HasSubstr("key: found \"names\""));
+  EXPECT_THAT(refusal_of("/version", 2), HasSubstr("version: found 2, expected a whole number in 1..1"));
+  EXPECT_THAT(refusal_of("/names", "x"),
+              HasSubstr("found unknown key \"names\", expected only format, version, colors_rgb"));
   EXPECT_THAT(refusal_of("/colors_rgb", "x\ny"), HasSubstr("colors_rgb: found \"x\\ny\""));
   EXPECT_THAT(refusal_of("/colors_rgb", nlohmann::json::array()),
-              HasSubstr("colors_rgb: found 0 colors, expected 10"));
-  EXPECT_THAT(refusal_of("/colors_rgb/3", {1, 2}),
-              HasSubstr("colors_rgb[3]: found an array of 2, expected an array of 3"));
+              HasSubstr("colors_rgb: found 0 elements, expected 10"));
+  EXPECT_THAT(refusal_of("/colors_rgb/3", {1, 2}), HasSubstr("colors_rgb[3]: found 2 elements, expected 3"));
   EXPECT_THAT(refusal_of("/colors_rgb/3/1", 256),
-              HasSubstr("colors_rgb[3][1]: found 256, expected a number of 0..255"));
+              HasSubstr("colors_rgb[3][1]: found 256, expected a number in 0..255"));
   EXPECT_THAT(refusal_of("/colors_rgb/9", {0, 0, 0}), HasSubstr("colors_rgb[9]: found black"));
 }
 

@@ -11,9 +11,8 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/base/math.h"
+#include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "core/base/text.h"
 #include "core/database/section_check.h"
 #include "core/database/tiny_image.h"
 
@@ -41,51 +40,35 @@ json postures_to_json(const PostureSet& set) {
   return postures;
 }
 
-/// The angles of one posture. Throws as header_from_json.
-Posture posture_from_json(const json& angles_rad, const std::string& path) {
-  const std::vector<double> angles = angles_rad;
-  if (angles.size() != kAngleCount) {
-    throw Error(path, "angles_rad", fmt::format("{} angles", angles.size()), fmt::format("{}", kAngleCount));
-  }
-  const Posture posture = Eigen::Map<const Posture>(angles.data());
+Posture posture_from(const JsonCursor& angles_rad) {
+  const JsonItems angles = angles_rad.items(kAngleCount);
+  Posture posture;
+  for (int a = 0; a < kAngleCount; ++a) posture[a] = angles[a].number();
   // Rounding between degrees and radians may move an angle across its limit.
   if (constexpr double kRounding = 1e-9; !(posture - clamp_to_limits(posture)).isZero(kRounding))
-    throw Error(path, "angles_rad", "an angle that no hand has", "angles within the limits of a hand");
+    angles_rad.fail("an angle that no hand has", "angles within the limits of a hand");
   return posture;
 }
 
-/// Throws json::exception for a wrong type, Error naming `path` for an invalid value. The caller checks the rest.
-DatabaseHeader header_from_json(const json& text, const std::string& path) {
+/// The caller checks the rest.
+DatabaseHeader header_from(const JsonCursor& root, const std::string& path) {
   DatabaseHeader header;
-  header.postures.name = checked_name(text.at("name"), path, "name");
-  header.input_hash = text.at("input_hash");
-  const std::string side = text.at("side");
-  const auto known_side = from_name<Side>(side);
-  if (!known_side) throw Error(path, "side", quoted_excerpt(side), known_names<Side>());
-  header.side = *known_side;
-  const std::string memory = text.at("memory");
-  const auto known = from_name<DatabaseMemory>(memory);
-  if (!known) throw Error(path, "memory", quoted_excerpt(memory), known_names<DatabaseMemory>());
-  header.memory = *known;
-  header.field_cap_share = text.at("field_cap_share");
-  if (!(header.field_cap_share > 0 && header.field_cap_share <= 1)) {
-    throw Error(path, "field_cap_share", fmt::format("{}", header.field_cap_share), "(0, 1]");
+  header.postures.name = root["name"].name();
+  header.input_hash = root["input_hash"].text();
+  header.side = root["side"].one_of<Side>();
+  header.memory = root["memory"].one_of<DatabaseMemory>();
+  const JsonCursor cap = root["field_cap_share"];
+  header.field_cap_share = cap.number();
+  if (!(header.field_cap_share > 0 && header.field_cap_share <= 1)) cap.fail("(0, 1]");
+  for (const JsonCursor& posture : root["postures"].some_items()) {
+    header.postures.posture_names.push_back(posture["name"].name());
+    header.postures.postures.push_back(posture_from(posture["angles_rad"]));
   }
-  for (const json& posture : text.at("postures")) {
-    header.postures.posture_names.push_back(checked_name(posture.at("name"), path, "name of a posture"));
-    header.postures.postures.push_back(posture_from_json(posture.at("angles_rad"), path));
-  }
-  for (const int px : text.at("sizes_px")) {
-    if (px < kSmallestTinySize || px > kLargestTinySize) {
-      throw Error(path, "tiny images", fmt::format("{} px", px),
-                  fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
-    }
-    header.sizes_px.insert(px);
-  }
+  for (const JsonCursor& px : root["sizes_px"].items())
+    header.sizes_px.insert(static_cast<int>(px.integer(kSmallestTinySize, kLargestTinySize)));
   const std::vector<std::string>& names = header.postures.posture_names;
   if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
     throw Error(path, "names of postures", "one twice", "names that differ");
-  if (header.postures.postures.empty()) throw Error(path, "postures", "none", "at least one");
   return header;
 }
 
@@ -136,13 +119,10 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
   const std::string text = text_at(kHeaderBegin, length, "header");
   if (hash_text(text) != checksum) throw Error(path, "header checksum", hash_text(text), checksum);
 
-  try {
-    const json parsed = parse_json(text, path);
-    header_ = header_from_json(parsed, path);
-    hashes_ = parsed.at("hashes").get<std::map<std::string, std::string>>();
-  } catch (const json::exception& e) {
-    throw Error(path, "header", e.what(), "what a database of this version says");
-  }
+  const json parsed = parse_json(text, path);
+  const JsonCursor root(parsed, path);
+  header_ = header_from(root, path);
+  for (const auto& [name, hash] : root["hashes"].members()) hashes_[name] = hash.text();
   place(kHeaderBegin + length);
   if (bytes_ != file.size()) {
     throw Error(path, "length", fmt::format("{} bytes", file.size()), fmt::format("{} bytes", bytes_));

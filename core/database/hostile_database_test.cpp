@@ -113,7 +113,7 @@ TEST_P(HostileDatabase, a_posture_that_no_hand_has_is_an_error) {
     const std::string from = "\"angles_rad\":[0.0,";
     file.replace(file.find(from) + from.size() - 4, 3, angle);
     write_file(path_, with_right_hashes(file, layout_));
-    expect_refused("angles_rad", "angles within the limits");
+    expect_refused("postures[0].angles_rad", "angles within the limits");
   }
 }
 
