@@ -80,7 +80,7 @@ nlohmann::json to_json(const TrackerConfig& config);
 struct ConfigMeaning {
   std::string_view field;  ///< "icp.max_points"
   std::string_view meaning;
-  std::string_view paper;  ///< words and section; empty: not in the paper
+  std::string_view paper = {};  ///< words and section; empty: not in the paper
 };
 struct ConfigField {
   ConfigMeaning what;

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/tracker/config_meanings.h"
 
 namespace glovebench {
 namespace {
@@ -209,7 +208,6 @@ TEST(TrackerConfig, each_number_has_a_range) {
 
 TEST(TrackerConfig, each_field_says_what_it_is) {
   const std::vector<ConfigField> fields = config_fields(TrackerConfig{});
-  EXPECT_EQ(fields.size(), config_meanings().size()) << "a meaning for no field";
   json written;
   for (const ConfigField& field : fields) {
     EXPECT_FALSE(field.what.meaning.empty() || field.range.empty()) << field.what.field;
