@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <thread>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"

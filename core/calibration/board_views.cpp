@@ -12,7 +12,6 @@
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
-#include "core/camera/pinhole_camera.h"
 #include "core/kinect/recording_files.h"
 
 namespace glovebench::calibration {

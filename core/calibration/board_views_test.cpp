@@ -2,7 +2,6 @@
 #include "core/calibration/board_views.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"

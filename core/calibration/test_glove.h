@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/base/random.h"
 #include "core/calibration/color_samples.h"
 #include "core/calibration/color_seeds.h"

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/math.h"

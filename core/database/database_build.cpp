@@ -8,7 +8,6 @@
 #include <atomic>
 #include <filesystem>
 #include <mutex>
-#include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/hash.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/database/database.h"
 #include "core/database/look_up_kernels.h"
 

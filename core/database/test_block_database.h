@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cstring>
-
 #include "core/database/database.h"
 #include "render/test_hand.h"
 

@@ -1,7 +1,7 @@
 #include "core/hand/glove.h"
 
 #include <map>
-#include <set>
+#include <span>
 
 #include "core/base/error.h"
 #include "core/hand/skeleton.h"

@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <map>
-#include <set>
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"

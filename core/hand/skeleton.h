@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <string>
-#include <vector>
 
 #include "core/hand/posture.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/kinect/disparity.h"
 #include "core/pose/test_alignment.h"
 #include "core/tracker/test_scene.h"
 

@@ -1,6 +1,5 @@
 #include "core/pose/box_placement.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace glovebench {

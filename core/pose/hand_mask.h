@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/base/image.h"
-#include "core/camera/pinhole_camera.h"
 #include "core/kinect/device.h"
 
 namespace glovebench {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/base/random.h"
 #include "core/kinect/disparity.h"
 

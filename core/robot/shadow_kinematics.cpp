@@ -1,7 +1,6 @@
 #include "core/robot/shadow_kinematics.h"
 
 #include <numbers>
-#include <span>
 
 namespace glovebench {
 namespace {

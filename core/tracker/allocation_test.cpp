@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <functional>
 #include <thread>
 #include <vector>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 #include "core/base/error.h"
 #include "core/robot/shadow_kinematics.h"

@@ -1,6 +1,5 @@
 #include "core/adapters/dds/dds_server.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <atomic>

@@ -2,7 +2,6 @@
 #include "core/adapters/process/process_method.h"
 
 #include <gmock/gmock.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +18,6 @@
 #include "core/adapters/process/tracker_process.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/kinect/disparity.h"

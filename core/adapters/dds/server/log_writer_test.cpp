@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"

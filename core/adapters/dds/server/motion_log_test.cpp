@@ -1,14 +1,12 @@
 #include "core/adapters/dds/server/motion_log.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <functional>
 
 #include "core/adapters/system_time.h"
-#include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"

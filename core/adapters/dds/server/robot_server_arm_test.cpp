@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 
 #include "core/adapters/dds/server/test_messages.h"
 #include "core/base/error.h"
