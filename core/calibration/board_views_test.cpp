@@ -5,10 +5,10 @@
 
 #include <filesystem>
 
-#include "core/base/error.h"
 #include "core/base/whole_file.h"
 #include "core/calibration/test_board.h"
 #include "core/kinect/recording_files.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench::calibration {
@@ -36,12 +36,7 @@ class BoardViewsTest : public testing::Test {
     return content;
   }
   std::string refusal(const std::string& source) const {
-    try {
-      find_boards(source, kBoard, 10);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    return thrown_by([&] { find_boards(source, kBoard, 10); });
   }
 
   const std::string folder_ = test_folder();
@@ -113,14 +108,7 @@ TEST_F(BoardViewsTest, RefusesWhatIsNoSource) {
 }
 
 TEST(Chessboard, IsCheckedFieldByField) {
-  const auto refusal = [](const Chessboard& board) -> std::string {
-    try {
-      check_chessboard(board, "here");
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
-  };
+  const auto refusal = [](const Chessboard& board) { return thrown_by([&] { check_chessboard(board, "here"); }); };
   EXPECT_EQ(refusal({9, 6, 0.025}), "");
   EXPECT_THAT(refusal({2, 6, 0.025}), HasSubstr("here: columns: found 2"));
   EXPECT_THAT(refusal({9, 101, 0.025}), HasSubstr("rows"));

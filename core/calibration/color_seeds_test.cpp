@@ -8,6 +8,7 @@
 #include "core/base/whole_file.h"
 #include "core/calibration/test_glove.h"
 #include "core/segmentation/color_calibration.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench::calibration {
@@ -30,13 +31,9 @@ const nlohmann::json kGlove = {{"format", "glovebench-glove-colors"},
                                  {120, 200, 230}}}};
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_glove_colors(text, "glove.json");
-  } catch (const Error& e) {
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
-    return e.what();
-  }
-  return "accepted";
+  const std::string error = thrown_by([&] { parse_glove_colors(text, "glove.json"); });
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  return error;
 }
 std::string refusal_of(const std::string& pointer, const nlohmann::json& value) {
   nlohmann::json changed = kGlove;
@@ -91,12 +88,8 @@ TEST(ColorSeeds, of_a_table_lie_in_the_middle_of_its_colors) {
   const ColorSeeds seeds = seeds_of_table(counted.build(), "table"), expected = test_seeds();
   for (int label = 1; label <= kColorCount; ++label)
     EXPECT_LT((seeds[label] - expected[label]).norm(), 0.05) << label;
-  try {
-    seeds_of_table(ColorTable(), "empty.table");
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), HasSubstr("empty.table: color 1: found no cell"));
-  }
+  EXPECT_THAT(thrown_by([] { seeds_of_table(ColorTable(), "empty.table"); }),
+              HasSubstr("empty.table: color 1: found no cell"));
 }
 
 TEST(ColorSeeds, are_loaded_by_what_the_file_holds) {

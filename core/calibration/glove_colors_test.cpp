@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/base/error.h"
 #include "core/calibration/color_report.h"
 #include "core/calibration/test_glove.h"
+#include "core/test_error.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -36,12 +36,7 @@ Shares shares_of(const ColorTable& table, const TestScene& scene) {
 }
 
 std::string refusal(const ColorSamples& samples) {
-  try {
-    fit_glove_colors(samples, test_seeds(), "dump");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "accepted";
+  return thrown_by([&] { fit_glove_colors(samples, test_seeds(), "dump"); });
 }
 
 /// Gains of red and blue, strength.

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 
 #include "ci/build_paths.h"
-#include "core/base/error.h"
 #include "core/calibration/hand_report.h"
 #include "core/database/test_database.h"
 #include "core/pose/test_alignment.h"
+#include "core/test_error.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -112,14 +112,7 @@ TEST(HandViews, measure_how_a_hand_moves) {
 }
 
 TEST(HandViews, ask_for_a_hand_that_moves_long_enough) {
-  const auto refusal = [](const ShownMotion& motion) -> std::string {
-    try {
-      require_motion(motion, "dump");
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
-  };
+  const auto refusal = [](const ShownMotion& shown) { return thrown_by([&] { require_motion(shown, "dump"); }); };
   ShownMotion motion{120, 10, 100, {50, 120, 120, 120, 120}};
   EXPECT_EQ(refusal(motion), "");
   motion.views = 12;

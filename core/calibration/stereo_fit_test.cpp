@@ -7,13 +7,12 @@
 
 #include <cstdio>
 #include <cstring>
-#include <functional>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/calibration/test_board.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench::calibration {
@@ -147,12 +146,7 @@ Errors worst_with_noise(const Session& session, LensModel lens, const char* titl
 }
 
 std::string refusal(const BoardViews& ir, const BoardViews& rgb, const Chessboard& board) {
-  try {
-    fit_stereo(ir, rgb, board, LensModel::radial);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { fit_stereo(ir, rgb, board, LensModel::radial); });
 }
 
 TEST(FindCorners, OfRenderedPicturesLieWithinAFractionOfAPixel) {

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/whole_file.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -17,12 +18,7 @@ namespace {
 using nlohmann::json;
 
 std::string calibration_error(const json& content) {
-  try {
-    calibration_from_json(content, "here.json");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { calibration_from_json(content, "here.json"); });
 }
 
 bool starts_with(const std::string& text, const std::string& start) {

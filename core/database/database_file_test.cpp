@@ -15,6 +15,7 @@
 #include "core/base/whole_file.h"
 #include "core/database/look_up.h"
 #include "core/database/test_block_database.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -36,12 +37,8 @@ class DatabaseFile : public testing::Test {
   }
   void expect_refused(const std::string& content, const std::string& what) {
     write_file(path_, content);
-    try {
-      Database::load(path_);
-      ADD_FAILURE() << what << ": loaded";
-    } catch (const Error& e) {
-      EXPECT_THAT(e.what(), AllOf(HasSubstr(path_ + ": "), HasSubstr("expected "))) << what;
-    }
+    EXPECT_THAT(thrown_by([&] { Database::load(path_); }), AllOf(HasSubstr(path_ + ": "), HasSubstr("expected ")))
+        << what;
   }
 
   const TestFolder folder_;

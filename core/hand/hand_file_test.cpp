@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -32,12 +32,7 @@ std::string refusal(const std::string& pointer, const json& value) {
   const json::json_pointer at(pointer);
   if (value.is_null()) file.at(at.parent_pointer()).erase(at.back());
   if (!value.is_null()) file[at] = value;
-  try {
-    parse_hand(file.dump(), "mine.json");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { parse_hand(file.dump(), "mine.json"); });
 }
 
 TEST(HandFile, a_hand_returns) {

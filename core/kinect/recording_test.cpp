@@ -17,6 +17,7 @@
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/kinect/recording_files.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -49,14 +50,11 @@ class Recording : public testing::Test {
   std::string path(const std::string& name) const { return (fs::path(folder_) / name).string(); }
   /// The message of the first Error on the way through the whole recording, "" if there is none.
   std::string play_error() const {
-    try {
+    return thrown_by([&] {
       RecordingDevice device(folder_);
       while (device.next_frame()) {
       }
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    });
   }
 
   const std::string folder_ = test_folder();

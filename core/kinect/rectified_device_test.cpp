@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -131,12 +132,8 @@ TEST(RectifiedDevice, IsTheDeviceItselfWhereThereIsNoLens) {
 TEST(RectifiedDevice, RefusesALensThatFoldsTheImage) {
   RgbdCalibration calibration = with_lenses();
   calibration.ir_lens.k1 = -3;
-  try {
-    RectifiedDevice(std::make_unique<OneFrame>(calibration, DeviceFrame{}));
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("distortion: found an image that folds over"));
-  }
+  EXPECT_THAT(thrown_by([&] { RectifiedDevice(std::make_unique<OneFrame>(calibration, DeviceFrame{})); }),
+              testing::HasSubstr("distortion: found an image that folds over"));
 }
 
 TEST(RectifiedDevice, ExtremeLensesDoNoHarm) {

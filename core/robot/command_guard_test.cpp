@@ -9,6 +9,7 @@
 #include "core/base/random.h"
 #include "core/robot/robot_command.h"
 #include "core/robot/test_commands.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -244,12 +245,9 @@ TEST(CommandGuard, StartsFromWhereTheRobotStands) {
   EXPECT_THROW(guard.start_from(measured), Error);
   set_joint(measured, kFFJ3, 1);
   measured.T_base_hand.translation().z() = 0.1;
-  try {
-    guard.start_from(measured);
-    ADD_FAILURE() << "fingertips under the table";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("measured state: found outside the limits (workspace)"));
-  }
+  EXPECT_THAT(thrown_by([&] { guard.start_from(measured); }),
+              HasSubstr("measured state: found outside the limits (workspace)"))
+      << "fingertips under the table";
   measured.hand.joints[kFFJ3] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(guard.start_from(measured), Error);
 }
@@ -276,13 +274,8 @@ TEST(CommandGuard, NamesAllThatIsWrongWithItsLimits) {
   limits.longest_step_s = std::numeric_limits<double>::quiet_NaN();
   limits.fingertip_speed = std::numeric_limits<double>::infinity();
   EXPECT_EQ(limits.problems().size(), 7U) << "the workspace is empty and too small";
-  try {
-    CommandGuard guard(limits);
-    FAIL() << "limits without meaning were taken";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("hand_speed"));
-    EXPECT_THAT(error.what(), HasSubstr("stop_after_s"));
-  }
+  EXPECT_THAT(thrown_by([&] { CommandGuard guard(limits); }),
+              testing::AllOf(HasSubstr("hand_speed"), HasSubstr("stop_after_s")));
 }
 
 }  // namespace

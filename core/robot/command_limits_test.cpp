@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -15,12 +15,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 std::string limits_error(const json& limits) {
-  try {
-    command_limits_from_json(limits, "limits.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { command_limits_from_json(limits, "limits.json"); });
 }
 
 TEST(CommandLimitsJson, ReturnsWithEveryField) {

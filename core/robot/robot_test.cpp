@@ -10,6 +10,7 @@
 #include "core/base/input_file.h"
 #include "core/base/math.h"
 #include "core/robot/robot_command.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -197,12 +198,7 @@ TEST(RobotCommander, NothingThatIsNotFiniteLeaves) {
   RobotCommander commander(Eigen::Isometry3d::Identity());
   Posture posture = Posture::Zero();
   posture[kRingPipFlexion] = std::numeric_limits<double>::quiet_NaN();
-  try {
-    commander.command(tracked(1, posture));
-    FAIL() << "a NaN went through";
-  } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("ring_pip_flexion"));
-  }
+  EXPECT_THAT(thrown_by([&] { commander.command(tracked(1, posture)); }), HasSubstr("ring_pip_flexion"));
   RobotCommand command = commander.command(tracked(2, Posture::Zero()));
   command.targets->T_base_hand.translation().y() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(to_json_line(command), Error);

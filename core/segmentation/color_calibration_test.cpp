@@ -1,11 +1,11 @@
 #include "core/segmentation/color_calibration.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 
-#include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -240,12 +240,7 @@ TEST(ColorCalibration, RefusesAMissingColor) {
     if (label == 7) label = 0;
   ColorCalibration calibration;
   calibration.add_view(view.color, view.labels);
-  try {
-    calibration.build();
-    FAIL() << "no error";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("color 7"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(thrown_by([&] { calibration.build(); }), testing::HasSubstr("color 7"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/base/input_file.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -29,12 +30,7 @@ ColorTable random_table(ColorSpace space = ColorSpace::yuv) {
 }
 
 std::string load_error(const std::string& path) {
-  try {
-    ColorTable::load(path);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { ColorTable::load(path); });
 }
 
 TEST(Yuv, MatchesHandComputedValues) {

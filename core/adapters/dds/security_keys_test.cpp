@@ -11,6 +11,7 @@
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -34,13 +35,9 @@ class SecurityKeys : public testing::Test {
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   /// What is wrong with the keys of the sender.
   std::string fault(int64_t now_s = kNow) const {
-    try {
-      security_configuration(path("keys"), "sender", now_s);
-    } catch (const Error& e) {
-      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-      return e.what();
-    }
-    return "";
+    const std::string error = thrown_by([&] { security_configuration(path("keys"), "sender", now_s); });
+    EXPECT_EQ(error.find('\n'), std::string::npos);
+    return error;
   }
   /// What is wrong while a file has another content.
   std::string fault_with(const std::string& name, const std::string& content) const {

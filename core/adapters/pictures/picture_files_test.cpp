@@ -5,6 +5,7 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -27,12 +28,7 @@ std::vector<int> gray_of(std::string_view content) {
 }
 
 std::string refusal(std::string_view content) {
-  try {
-    decode_color(content, "a.png");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { decode_color(content, "a.png"); });
 }
 
 TEST(PictureFiles, PngComesBackEqual) { EXPECT_EQ(decode_color(encode_png(make_image()), "a.png"), make_image()); }

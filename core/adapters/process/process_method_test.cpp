@@ -21,6 +21,7 @@
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/kinect/disparity.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 
 namespace glovebench {
@@ -191,12 +192,8 @@ TEST_F(ProcessMethodTest, AnAnswerTooManyIsNotTheNextFrames) {
 
 TEST_F(ProcessMethodTest, UnknownCommandsAreRefused) {
   inputs_.config.method = "exec:/no/such/tracker --fast 2>/dev/null";
-  try {
-    make_process_method(inputs_)->track(small_frame());
-    FAIL();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), AllOf(HasSubstr("--method"), HasSubstr("/no/such/tracker"), HasSubstr("127")));
-  }
+  EXPECT_THAT(thrown_by([&] { make_process_method(inputs_)->track(small_frame()); }),
+              AllOf(HasSubstr("--method"), HasSubstr("/no/such/tracker"), HasSubstr("127")));
   inputs_.config.method = "exec: ";
   EXPECT_THROW(make_process_method(inputs_), Error);
 }

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -243,15 +244,13 @@ TEST(RobotServerArmStart, StartsAtTheEdgeOfTheWorkspace) {
       EXPECT_EQ(server.tick({now_us + 2, now_us + 2}).state, CommandState::following) << "and goes on from there";
       EXPECT_LT(wrist_of(server.positions(), mounted).translation()[axis], p[axis]);
     }
-    try {
-      RobotServer(outside_by(1e-3), arm_of(solver, mounted), {start, "arm.jsonl"});
-      ADD_FAILURE() << axis;
-    } catch (const Error& e) {
-      EXPECT_THAT(e.what(),
-                  testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
-                                        "the workspace, with room for the fingertips: \\(-1.27 -1.27 0.23\\) to "
-                                        "\\(.*\\)"));
-    }
+    EXPECT_THAT(thrown_by([&] {
+                  RobotServer(outside_by(1e-3), arm_of(solver, mounted), {start, "arm.jsonl"});
+                }),
+                testing::MatchesRegex("arm.jsonl: wrist of the arm: found \\(.*\\) m, expected a place in "
+                                      "the workspace, with room for the fingertips: \\(-1.27 -1.27 0.23\\) to "
+                                      "\\(.*\\)"))
+        << axis;
   }
 }
 

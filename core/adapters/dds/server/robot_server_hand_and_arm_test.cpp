@@ -3,11 +3,11 @@
 
 #include "core/adapters/dds/server/robot_server.h"
 #include "core/adapters/dds/server/test_messages.h"
-#include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
 #include "core/robot/shadow_kinematics.h"
 #include "core/robot/test_fingertips.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -201,12 +201,10 @@ TEST_F(RobotServerHandAndArm, StartsWithItsFingertipsInTheWorkspace) {
   limits_.workspace_max.z() = std::max(highest.z(), hand_of(last_).translation().z()) + 1e-3;
   EXPECT_NO_THROW(RobotServer(limits_, robot_, {last_}));
   limits_.workspace_max.z() -= 3e-3;
-  try {
-    RobotServer(limits_, robot_, {last_, "robot.jsonl"});
-    ADD_FAILURE();
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), testing::StartsWith("robot.jsonl: hand on the arm: found ("));
-  }
+  EXPECT_THAT(thrown_by([&] {
+                RobotServer(limits_, robot_, {last_, "robot.jsonl"});
+              }),
+              testing::StartsWith("robot.jsonl: hand on the arm: found ("));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "core/adapters/dds/server/robot_server.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -43,14 +44,7 @@ TEST(RobotServerStart, StartsAtALimitWhateverALogHasRounded) {
 
 TEST(RobotServerStart, NamesWhatIsOutside) {
   std::vector<double> start(kShadowJointCount, 0.0);
-  const auto error = [&]() -> std::string {
-    try {
-      RobotServer({}, {}, {start, "hand.jsonl"});
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
-  };
+  const auto error = [&] { return thrown_by([&] { RobotServer({}, {}, {start, "hand.jsonl"}); }); };
   start[kFFJ3] = radians_from_degrees(91);
   EXPECT_EQ(error(), "hand.jsonl: rh_FFJ3: found 91 degrees, expected -15 to 90");
   start[kFFJ3] = 0;

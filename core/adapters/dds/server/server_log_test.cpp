@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/test_error.h"
 
 namespace glovebench {
 namespace {
@@ -79,13 +80,9 @@ TEST(ServerLog, OfOtherJointsIsRefused) {
 
 TEST(ServerLog, IsBelievedForATime) {
   constexpr int64_t kSecond = 1'000'000, kThen = 1'795'363'200 * kSecond;
-  const auto error_after = [&](double seconds, double max_age_s) -> std::string {
-    try {
-      check_age({kThen, {}}, kThen + std::llround(seconds * 1e6), max_age_s, "log.jsonl");
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+  const auto error_after = [&](double seconds, double max_age_s) {
+    const int64_t now_us = kThen + std::llround(seconds * 1e6);
+    return thrown_by([&] { check_age({kThen, {}}, now_us, max_age_s, "log.jsonl"); });
   };
   EXPECT_EQ(error_after(0, 600), "");
   EXPECT_EQ(error_after(600, 600), "");
