@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "eval/commands/flags.h"
-#include "eval/settings_files.h"
+#include "eval/settings_run.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {
