@@ -86,12 +86,6 @@ void add_run(const Scoring& scoring, const EstimateSequence& sequence, const std
 constexpr const char* kWithoutConstant =
     "errors do not include a constant offset or rotation between camera and capture: the alignment removed it";
 
-std::vector<double> transform_numbers(const Eigen::Isometry3d& T) {
-  const Eigen::Vector3d p = T.translation();
-  const Eigen::Quaterniond q(T.linear());
-  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-}
-
 /// Times are relative to the start of the recording, so that its device's clock does not matter.
 double offset_from_start_us(const CaptureRequest& request, double offset_us) {
   return offset_us + static_cast<double>(request.answers.front().timestamp_us);
@@ -100,8 +94,7 @@ double offset_from_start_us(const CaptureRequest& request, double offset_us) {
 nlohmann::json alignment_json(const CaptureRequest& request, const CaptureAlignment& alignment) {
   const auto rounded_ms = [&](double us) { return reports::rounded(ms_of(offset_from_start_us(request, us))); };
   nlohmann::json transform = nlohmann::json::array();
-  for (const double value : transform_numbers(alignment.T_camera_capture))
-    transform.push_back(reports::rounded(value));
+  for (const double value : pose_numbers(alignment.T_camera_capture)) transform.push_back(reports::rounded(value));
   return {{"start_in_capture_ms", rounded_ms(alignment.time.offset_us)},
           {"start_in_capture_interval_ms", {rounded_ms(alignment.time.low_us), rounded_ms(alignment.time.high_us)}},
           {"camera_capture", std::move(transform)},
@@ -115,7 +108,7 @@ nlohmann::json alignment_json(const CaptureRequest& request, const CaptureAlignm
 std::vector<std::string> sentences(const CaptureRequest& request, const CaptureAlignment& alignment,
                                    const CapturedTruth& truth) {
   const auto start_ms = [&](double us) { return ms_of(offset_from_start_us(request, us)); };
-  const std::vector<double> T = transform_numbers(alignment.T_camera_capture);
+  const std::array<double, 7> T = pose_numbers(alignment.T_camera_capture);
   return {
       fmt::format("{} of {} lie in the capture.", truth.frames.size(),
                   reports::counted(request.answers.size(), "frame")),
