@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <ranges>
 
 #include "core/base/error.h"
 #include "eval/studies/light_curves.h"
@@ -31,8 +30,9 @@ std::vector<std::string> movements_for(const std::string& database) {
 
 /// Mean over movements and seeds with a value.
 Cell sequence_cell(const Selection& runs, std::optional<double> SequenceMetrics::*metric) {
-  const std::vector<std::vector<SequenceMetrics>> sequences = sequences_of(runs);
-  return cell(mean_present(std::views::join(sequences), metric));
+  std::vector<SequenceMetrics> all;
+  for (auto& sequences : sequences_of(runs)) append(all, std::move(sequences));
+  return cell(mean_present(all, metric));
 }
 
 std::vector<Cell> row_of(const Runs& runs, const Ablation& ablation, const AblationRow& row) {

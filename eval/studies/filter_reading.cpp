@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 
 #include "eval/studies/sample.h"
 #include "reports/paper_numbers.h"
@@ -42,7 +41,9 @@ std::optional<double> mean_autocorrelation(const std::vector<ErrorSeries>& seeds
 }
 
 std::optional<double> mean_error(const std::vector<ErrorSeries>& seeds) {
-  return mean_present(std::views::join(seeds));
+  ErrorSeries all;
+  for (const ErrorSeries& errors : seeds) all.insert(all.end(), errors.begin(), errors.end());
+  return mean_present(all);
 }
 
 struct FilterRow {
