@@ -1,7 +1,5 @@
 #include "eval/family_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 

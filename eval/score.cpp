@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/base/math.h"
 #include "eval/estimates/capture_alignment.h"

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "eval/commands/flags.h"
 #include "eval/settings_run.h"
 #include "eval/terminal.h"

@@ -6,7 +6,6 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
-#include "core/hand/skeleton.h"
 #include "eval/estimates/estimate_format.h"
 #include "trajectories/text_cells.h"
 
