@@ -1,5 +1,5 @@
 // A recording against motion capture of the same hand, with a clock and a frame of its own.
-#include "eval/capture_score.h"
+#include "eval/score.h"
 
 #include <gmock/gmock.h>
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "ci/build_paths.h"
-#include "core/hand/posture.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {

@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/math.h"
+#include "core/robot/command_guard.h"
 #include "core/robot/robot_command.h"
 #include "eval/experiment.h"
 #include "eval/threads.h"

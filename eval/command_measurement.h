@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/robot/command_guard.h"
+#include "core/robot/command_limits.h"
 #include "eval/measured_run.h"
 #include "reports/commands.h"
 #include "reports/timings.h"

@@ -15,7 +15,7 @@
 #include "core/database/test_damaged_database.h"
 #include "eval/command_test.h"
 #include "eval/test_program.h"
-#include "render/exr.h"
+#include "render/test_exr.h"
 
 namespace glovebench::eval {
 namespace {

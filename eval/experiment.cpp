@@ -14,6 +14,7 @@
 #include "eval/program.h"
 #include "eval/run_warnings.h"
 #include "eval/streaming.h"
+#include "eval/studies/sample.h"
 #include "eval/terminal.h"
 #include "reports/report.h"
 
@@ -22,24 +23,14 @@ namespace {
 
 using reports::ExperimentKey;
 
-std::optional<double> mean_present(const std::vector<std::optional<double>>& values) {
-  std::vector<double> present;
-  for (const auto& value : values) {
-    if (value) present.push_back(*value);
-  }
-  return reports::mean(present);
-}
-
 /// Measures each seed's sequence and averages over the seeds.
 reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
-  std::vector<std::optional<double>> position, rotation, latency;
-  for (const MeasuredRun* each : experiment.runs) {
-    const reports::SequenceMetrics m = measure_sequence(each->run.answers, frames_of(each->run.spec));
-    position.push_back(m.jitter_position_mm);
-    rotation.push_back(m.jitter_rotation_deg);
-    latency.push_back(m.latency_frames);
-  }
-  return {mean_present(position), mean_present(rotation), mean_present(latency)};
+  std::vector<reports::SequenceMetrics> seeds;
+  for (const MeasuredRun* each : experiment.runs)
+    seeds.push_back(measure_sequence(each->run.answers, frames_of(each->run.spec)));
+  return {mean_present(seeds, &reports::SequenceMetrics::jitter_position_mm),
+          mean_present(seeds, &reports::SequenceMetrics::jitter_rotation_deg),
+          mean_present(seeds, &reports::SequenceMetrics::latency_frames)};
 }
 
 /// Of joints that no tracked frame has, nothing is known; they do not count.

@@ -1,7 +1,5 @@
 #include "eval/family_table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
@@ -107,7 +105,7 @@ reports::Row row_of(const FamilyGroup& group) {
       interval->low = std::max(interval->low, 0.0);
       interval->high = std::min(interval->high, 100.0);
     }
-    std::ranges::copy(cells({reports::mean(values[c]), interval}), std::back_inserter(row));
+    append(row, cells({reports::mean(values[c]), interval}));
   }
   return row;
 }
@@ -137,9 +135,7 @@ reports::Table empty_family_table() {
       {}};
   for (const FamilyColumn& column : kFamilyColumns) {
     const int digits = column.share ? 1 : 2;
-    table.columns.push_back({std::string(column.key), std::string(column.heading), digits});
-    for (const char* end : {"low", "high"})
-      table.columns.push_back({fmt::format("{}_{}", column.key, end), end, digits});
+    add_with_interval(table.columns, {std::string(column.key), std::string(column.heading), digits});
   }
   return table;
 }

@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "eval/commands/options.h"
 #include "eval/terminal.h"
-#include "reports/comparison/pairing.h"
+#include "reports/results.h"
 
 namespace {
 

@@ -7,7 +7,6 @@
 #include "eval/test_program.h"
 #include "trajectories/capture/test_capture.h"
 #include "trajectories/catalog.h"
-#include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {

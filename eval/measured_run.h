@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "core/hand/hand_frame.h"
 #include "core/tracker/track_result.h"
 #include "eval/run.h"
 #include "reports/metrics/measure_frame.h"
 #include "reports/results.h"
-#include "trajectories/trajectory.h"
 
 namespace glovebench::eval {
 

@@ -8,7 +8,6 @@
 #include "eval/command_test.h"
 #include "eval/test_program.h"
 #include "render/label_renderer.h"
-#include "reports/results_json.h"
 
 namespace glovebench::eval {
 namespace {

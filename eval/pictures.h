@@ -8,7 +8,6 @@
 #include "eval/workbench.h"
 #include "reports/estimates.h"
 #include "reports/page/page.h"
-#include "trajectories/trajectory.h"
 
 namespace glovebench::eval {
 

@@ -1,7 +1,6 @@
 // Trackers that are programs of their own.
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <set>
 
 #include "ci/build_paths.h"

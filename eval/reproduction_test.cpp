@@ -13,6 +13,7 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
+#include "eval/program.h"
 #include "eval/run_bytes.h"
 #include "eval/test_program.h"
 #include "reports/results_json.h"

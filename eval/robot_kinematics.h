@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/hand/skeleton.h"
-#include "core/robot/shadow_kinematics.h"
+#include "core/robot/shadow_hand.h"
 #include "reports/table.h"
 
 namespace glovebench::eval {

@@ -1,6 +1,8 @@
 #include "eval/run_bytes.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/base/parse_json.h"
@@ -13,203 +15,174 @@ using reports::Cell;
 using reports::Column;
 using reports::ConfidenceInterval;
 using reports::Measure;
+using reports::StageTiming;
 using reports::StudyResult;
 using reports::Table;
 
-json row_of(const Posture& posture) { return std::vector<double>(posture.begin(), posture.end()); }
+/// Stored members of a struct, in the order of the bytes; null for other types.
+template <typename T>
+constexpr auto kFields = nullptr;
+template <>
+constexpr auto kFields<Match> = std::tuple(&Match::entry, &Match::error);
+template <>
+constexpr auto kFields<AngleCertainty> = std::tuple(&AngleCertainty::deviation, &AngleCertainty::hidden);
+template <>
+constexpr auto kFields<EstimateParts> = std::tuple(&EstimateParts::posture, &EstimateParts::pose,
+                                                   &EstimateParts::place, &EstimateParts::scale,
+                                                   &EstimateParts::internals);
+template <>
+constexpr auto kFields<TrackResult> = std::tuple(
+    &TrackResult::timestamp_us, &TrackResult::status, &TrackResult::posture, &TrackResult::T_camera_hand,
+    &TrackResult::posture_unfiltered, &TrackResult::T_camera_hand_unfiltered, &TrackResult::T_camera_hand_coarse,
+    &TrackResult::matches, &TrackResult::ambiguous, &TrackResult::converged, &TrackResult::cloud_points,
+    &TrackResult::icp_points, &TrackResult::icp_iterations, &TrackResult::icp_residual, &TrackResult::certainty,
+    &TrackResult::reason, &TrackResult::has, &TrackResult::joints);
+template <>
+constexpr auto kFields<Sight> = std::tuple(&Sight::visible_pixels, &Sight::trackable, &Sight::visible_percent);
+template <>
+constexpr auto kFields<StageTiming> = std::tuple(&StageTiming::stage, &StageTiming::frame_ms);
+template <>
+constexpr auto kFields<Column> = std::tuple(&Column::key, &Column::heading, &Column::digits, &Column::is_time);
+template <>
+constexpr auto kFields<Table> = std::tuple(&Table::name, &Table::title, &Table::explanation, &Table::name_columns,
+                                           &Table::columns, &Table::rows);
+template <>
+constexpr auto kFields<ConfidenceInterval> = std::tuple(&ConfidenceInterval::low, &ConfidenceInterval::high,
+                                                        &ConfidenceInterval::level, &ConfidenceInterval::seeds,
+                                                        &ConfidenceInterval::blocks,
+                                                        &ConfidenceInterval::block_frames,
+                                                        &ConfidenceInterval::over);
+template <>
+constexpr auto kFields<Measure> = std::tuple(&Measure::name, &Measure::unit, &Measure::value, &Measure::interval,
+                                             &Measure::is_time);
+template <>
+constexpr auto kFields<StudyResult> = std::tuple(&StudyResult::name, &StudyResult::title, &StudyResult::tables,
+                                                 &StudyResult::measures);
 
-Posture posture_of(const json& row) {
-  const auto values = row.get<std::array<double, kAngleCount>>();
-  return Posture::Map(values.data());
+template <typename T>
+concept Struct = !std::is_null_pointer_v<std::remove_const_t<decltype(kFields<T>)>>;
+template <typename T>
+concept Optional = requires(T value) {
+  value.has_value();
+};
+template <typename T>
+concept Vector = std::is_same_v<T, Posture> || std::is_same_v<T, Eigen::Vector3d>;
+/// Of what JSON does not know by itself.
+template <typename T>
+concept List = requires(T list) {
+  list.push_back(list.front());
 }
+&&!std::is_arithmetic_v<typename T::value_type>;
 
-/// The upper three rows of the matrix, column by column.
-json row_of(const Eigen::Isometry3d& pose) {
-  const Eigen::Matrix<double, 3, 4> upper = pose.matrix().topRows<3>();
-  return std::vector<double>(upper.data(), upper.data() + upper.size());
-}
-
-Eigen::Isometry3d pose_of(const json& row) {
-  const auto values = row.get<std::array<double, 12>>();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.matrix().topRows<3>() = Eigen::Matrix<double, 3, 4>::Map(values.data());
-  return pose;
-}
-
-json row_of(const EstimateParts& has) { return {has.posture, has.pose, has.place, has.scale, has.internals}; }
-
-std::optional<Eigen::Vector3d> joint_of(const json& row) {
-  if (row.is_null()) return std::nullopt;
-  return Eigen::Vector3d(row.at(0).get<double>(), row.at(1).get<double>(), row.at(2).get<double>());
-}
-
-json row_of(const TrackResult& r) {
-  json matches = json::array(), joints = json::array();
-  for (const Match& match : r.matches) matches.push_back({match.entry, match.error});
-  for (const auto& p : r.joints) joints.push_back(p ? json{p->x(), p->y(), p->z()} : json());
-  return {r.timestamp_us,
-          to_string(r.status),
-          row_of(r.posture),
-          row_of(r.T_camera_hand),
-          row_of(r.posture_unfiltered),
-          row_of(r.T_camera_hand_unfiltered),
-          row_of(r.T_camera_hand_coarse),
-          std::move(matches),
-          r.ambiguous,
-          r.converged,
-          r.cloud_points,
-          r.icp_points,
-          r.icp_iterations,
-          r.icp_residual,
-          r.certainty ? json{row_of(r.certainty->deviation), r.certainty->hidden} : json(),
-          r.reason,
-          row_of(r.has),
-          std::move(joints)};
-}
-
-TrackStatus status_of(const json& value) {
-  const std::optional<TrackStatus> status = from_name<TrackStatus>(value.get<std::string>());
-  if (!status) throw json::other_error::create(501, "no status", &value);
-  return *status;
-}
-
-TrackResult result_of(const json& row) {
-  TrackResult r;
-  r.timestamp_us = row.at(0);
-  r.status = status_of(row.at(1));
-  r.posture = posture_of(row.at(2));
-  r.T_camera_hand = pose_of(row.at(3));
-  r.posture_unfiltered = posture_of(row.at(4));
-  r.T_camera_hand_unfiltered = pose_of(row.at(5));
-  r.T_camera_hand_coarse = pose_of(row.at(6));
-  for (const json& match : row.at(7)) r.matches.push_back({match.at(0).get<int>(), match.at(1).get<float>()});
-  r.ambiguous = row.at(8);
-  r.converged = row.at(9);
-  r.cloud_points = row.at(10);
-  r.icp_points = row.at(11);
-  r.icp_iterations = row.at(12);
-  r.icp_residual = row.at(13);
-  if (const json& certainty = row.at(14); !certainty.is_null())
-    r.certainty = {posture_of(certainty.at(0)), certainty.at(1).get<uint32_t>()};
-  r.reason = row.at(15).get<std::string>();
-  const json& has = row.at(16);
-  r.has = {has.at(0), has.at(1), has.at(2), has.at(3), has.at(4)};
-  for (const json& joint : row.at(17)) r.joints.push_back(joint_of(joint));
-  return r;
-}
-
-json row_of(const Sight& sight) { return {sight.visible_pixels, sight.trackable, sight.visible_percent}; }
-
-Sight sight_of(const json& row) { return {row.at(0).get<std::array<int, kPatchCount>>(), row.at(1), row.at(2)}; }
-
-json row_of(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* count = std::get_if<int64_t>(&cell)) return *count;
-  if (const auto* number = std::get_if<double>(&cell)) return *number;
-  return {};
-}
-
-Cell cell_of(const json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_integer()) return value.get<int64_t>();
-  if (value.is_number()) return value.get<double>();
-  return {};
-}
-
-json row_of(const Table& table) {
-  json columns = json::array(), rows = json::array();
-  for (const Column& column : table.columns)
-    columns.push_back({column.key, column.heading, column.digits, column.is_time});
-  for (const std::vector<Cell>& row : table.rows) {
-    json& cells = rows.emplace_back(json::array());
-    for (const Cell& cell : row) cells.push_back(row_of(cell));
+template <typename T>
+json to_row(const T& value) {
+  if constexpr (Struct<T>) {
+    return std::apply([&](auto... field) { return json::array({to_row(value.*field)...}); }, kFields<T>);
+  } else if constexpr (Optional<T>) {
+    return value ? to_row(*value) : json();
+  } else if constexpr (Named<T>) {
+    return to_string(value);
+  } else if constexpr (Vector<T>) {
+    return std::vector<double>(value.begin(), value.end());
+  } else if constexpr (std::is_same_v<T, Eigen::Isometry3d>) {  // the upper three rows, column by column
+    const Eigen::Matrix<double, 3, 4> upper = value.matrix().template topRows<3>();
+    return std::vector<double>(upper.data(), upper.data() + upper.size());
+  } else if constexpr (std::is_same_v<T, Cell>) {
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* count = std::get_if<int64_t>(&value)) return *count;
+    if (const auto* number = std::get_if<double>(&value)) return *number;
+    return {};
+  } else if constexpr (List<T>) {
+    json rows = json::array();
+    for (const auto& each : value) rows.push_back(to_row(each));
+    return rows;
+  } else {
+    return value;
   }
-  return {table.name, table.title, table.explanation, table.name_columns, std::move(columns), std::move(rows)};
 }
 
-Table table_of(const json& row) {
-  Table table{row.at(0), row.at(1), row.at(2), {}, row.at(3), {}};
-  for (const json& column : row.at(4))
-    table.columns.push_back({column.at(0), column.at(1), column.at(2), column.at(3)});
-  for (const json& cells : row.at(5)) {
-    std::vector<Cell>& cells_of_row = table.rows.emplace_back();
-    for (const json& value : cells) cells_of_row.push_back(cell_of(value));
+template <typename T>
+T from_row(const json& row) {
+  if constexpr (Struct<T>) {
+    T value;
+    size_t i = 0;
+    const auto read = [&](auto& member) {
+      member = from_row<std::remove_reference_t<decltype(member)>>(row.at(i++));
+    };
+    std::apply([&](auto... field) { (read(value.*field), ...); }, kFields<T>);
+    return value;
+  } else if constexpr (Optional<T>) {
+    return row.is_null() ? T() : T(from_row<typename T::value_type>(row));
+  } else if constexpr (Named<T>) {
+    const std::optional<T> value = from_name<T>(row.get<std::string>());
+    if (!value) throw json::other_error::create(501, "no status", &row);
+    return *value;
+  } else if constexpr (Vector<T>) {
+    return T::Map(row.get<std::array<double, T::SizeAtCompileTime>>().data());
+  } else if constexpr (std::is_same_v<T, Eigen::Isometry3d>) {
+    T pose = T::Identity();
+    pose.matrix().template topRows<3>() =
+        Eigen::Matrix<double, 3, 4>::Map(row.get<std::array<double, 12>>().data());
+    return pose;
+  } else if constexpr (std::is_same_v<T, Cell>) {
+    if (row.is_string()) return row.get<std::string>();
+    if (row.is_number_integer()) return row.get<int64_t>();
+    if (row.is_number()) return row.get<double>();
+    return {};
+  } else if constexpr (List<T>) {
+    T list;
+    for (const json& each : row) list.push_back(from_row<typename T::value_type>(each));
+    return list;
+  } else {
+    return row.get<T>();
   }
-  return table;
 }
 
-json row_of(const Measure& measure) {
-  json interval;
-  if (const auto& i = measure.interval)
-    interval = {i->low, i->high, i->level, i->seeds, i->blocks, i->block_frames, i->over};
-  return {measure.name, measure.unit, measure.value ? json(*measure.value) : json(), interval, measure.is_time};
+std::string cbor_of(const json& content) {
+  std::string bytes;
+  json::to_cbor(content, bytes);
+  return bytes;
 }
 
-Measure measure_of(const json& row) {
-  Measure measure{row.at(0), row.at(1), {}, {}, row.at(4)};
-  if (!row.at(2).is_null()) measure.value = row.at(2).get<double>();
-  if (const json& i = row.at(3); !i.is_null())
-    measure.interval = ConfidenceInterval{i.at(0), i.at(1), i.at(2), i.at(3), i.at(4), i.at(5), i.at(6)};
-  return measure;
+/// Empty for bytes that `read` refuses.
+template <typename Read>
+auto from_cbor(const std::string& bytes, const char* where, const Read& read)
+    -> std::invoke_result_t<Read, const json&> {
+  try {
+    return read(parse_cbor(bytes, where));
+  } catch (const json::exception&) {
+    return std::nullopt;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace
 
 std::string to_bytes(const Run& run) {
-  json answers = json::array(), seen = json::array(), stages = json::array();
-  for (const TrackResult& answer : run.answers) answers.push_back(row_of(answer));
-  for (const Sight& sight : run.seen) seen.push_back(row_of(sight));
-  for (const reports::StageTiming& stage : run.stages) stages.push_back({stage.stage, stage.frame_ms});
-  std::string bytes;
-  json::to_cbor({{"answers", std::move(answers)},
-                 {"seen", std::move(seen)},
-                 {"stages", std::move(stages)},
-                 {"frame_ms", run.frame_ms}},
-                bytes);
-  return bytes;
+  return cbor_of({{"answers", to_row(run.answers)},
+                  {"seen", to_row(run.seen)},
+                  {"stages", to_row(run.stages)},
+                  {"frame_ms", run.frame_ms}});
 }
 
 std::optional<Run> run_from_bytes(const std::string& bytes, const RunSpec& spec) {
-  try {
-    const json object = parse_cbor(bytes, "stored run");
-    Run run;
-    run.spec = spec;
-    for (const json& row : object.at("answers")) run.answers.push_back(result_of(row));
-    for (const json& row : object.at("seen")) run.seen.push_back(sight_of(row));
-    for (const json& stage : object.at("stages"))
-      run.stages.push_back({stage.at(0).get<std::string>(), stage.at(1).get<std::vector<double>>()});
-    run.frame_ms = object.at("frame_ms").get<std::vector<double>>();
+  return from_cbor(bytes, "stored run", [&](const json& object) -> std::optional<Run> {
+    Run run{spec, from_row<std::vector<TrackResult>>(object.at("answers")),
+            from_row<std::vector<Sight>>(object.at("seen")),
+            from_row<std::vector<StageTiming>>(object.at("stages")),
+            object.at("frame_ms").get<std::vector<double>>()};
     const size_t frames = run.answers.size();
     if (run.seen.size() != frames || run.frame_ms.size() != frames) return std::nullopt;
     return run;
-  } catch (const json::exception&) {
-    return std::nullopt;
-  } catch (const Error&) {
-    return std::nullopt;
-  }
+  });
 }
 
-std::string to_bytes(const StudyResult& study) {
-  json tables = json::array(), measures = json::array();
-  for (const Table& table : study.tables) tables.push_back(row_of(table));
-  for (const Measure& measure : study.measures) measures.push_back(row_of(measure));
-  std::string bytes;
-  json::to_cbor(json{study.name, study.title, std::move(tables), std::move(measures)}, bytes);
-  return bytes;
-}
+std::string to_bytes(const StudyResult& study) { return cbor_of(to_row(study)); }
 
 std::optional<StudyResult> study_from_bytes(const std::string& bytes) {
-  try {
-    const json content = parse_cbor(bytes, "stored study");
-    StudyResult study{content.at(0), content.at(1), {}, {}};
-    for (const json& table : content.at(2)) study.tables.push_back(table_of(table));
-    for (const json& measure : content.at(3)) study.measures.push_back(measure_of(measure));
-    return study;
-  } catch (const json::exception&) {
-    return std::nullopt;
-  } catch (const Error&) {
-    return std::nullopt;
-  }
+  return from_cbor(bytes, "stored study",
+                   [](const json& row) -> std::optional<StudyResult> { return from_row<StudyResult>(row); });
 }
 
 }  // namespace glovebench::eval

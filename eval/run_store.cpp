@@ -16,7 +16,7 @@
 #include "core/base/text.h"
 #include "core/base/whole_file.h"
 #include "eval/terminal.h"
-#include "reports/comparison/pairing.h"
+#include "reports/results.h"
 
 namespace glovebench::eval {
 namespace {

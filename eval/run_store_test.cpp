@@ -10,7 +10,6 @@
 #include "core/base/random.h"
 #include "eval/run_bytes.h"
 #include "eval/test_program.h"
-#include "reports/comparison/pairing.h"
 
 namespace glovebench::eval {
 namespace {

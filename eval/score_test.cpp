@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "eval/command_test.h"
@@ -11,7 +9,6 @@
 #include "eval/measured_run.h"
 #include "eval/program.h"
 #include "eval/test_program.h"
-#include "reports/results_json.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {

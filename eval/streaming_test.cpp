@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include "eval/command_test.h"
-#include "eval/experiment.h"
 
 namespace glovebench::eval {
 namespace {

@@ -14,6 +14,7 @@
 #include "core/base/registry.h"
 #include "core/base/text.h"
 #include "eval/program.h"
+#include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
 #include "trajectories/generation/families/movement.h"
 
@@ -230,15 +231,7 @@ Suite load_suite(const std::string& name_or_file) {
   return suite;
 }
 
-std::vector<std::string> suite_names() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(suite_folder(), error)) {
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  }
-  std::ranges::sort(names);
-  return names;
-}
+std::vector<std::string> suite_names() { return trajectories::json_names(suite_folder()); }
 
 Side side_of(const Suite& suite) {
   const SuiteEntry& first = suite.entries.at(0);

@@ -12,7 +12,6 @@
 #include "render/label_renderer.h"
 #include "trajectories/catalog.h"
 #include "trajectories/formats/format.h"
-#include "trajectories/posture_file.h"
 #include "trajectories/trajectory_properties.h"
 
 namespace glovebench::eval {

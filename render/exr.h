@@ -17,12 +17,5 @@ struct FrameLayers {
 
 /// Throws: Error if sizes differ or all images are empty.
 std::string encode_exr(const FrameLayers& layers, const std::string& where);
-/// Throws: Error.
-void write_exr(const std::string& path, const FrameLayers& layers);
-/// Colors are exact.
-/// Throws: Error for other files than `write_exr`'s.
-FrameLayers read_exr(const std::string& path);
-/// Throws: Error.
-FrameLayers parse_exr(const std::string& content, const std::string& where);
 
 }  // namespace glovebench::render

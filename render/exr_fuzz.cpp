@@ -1,5 +1,5 @@
 #include "core/base/fuzz_target.h"
-#include "render/exr.h"
+#include "render/test_exr.h"
 
 namespace glovebench {
 

@@ -8,6 +8,7 @@
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
+#include "render/test_exr.h"
 
 namespace glovebench::render {
 namespace {
@@ -16,6 +17,8 @@ class Exr : public testing::Test {
  protected:
   const std::string path_ = test_folder() + "/layers.exr";
 };
+
+void write_exr(const std::string& path, const FrameLayers& layers) { write_file(path, encode_exr(layers, path)); }
 
 FrameLayers some_layers() {
   FrameLayers layers{ColorImage(16, 48), DepthImage(16, 48), LabelImage(16, 48), DepthImage(16, 48),

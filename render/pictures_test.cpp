@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/test_folder.h"
-#include "render/glove_colors.h"
 
 namespace glovebench::render {
 namespace {

@@ -16,20 +16,9 @@ namespace fs = std::filesystem;
 
 std::string folder_of(TrajectoryKind kind) { return kind == TrajectoryKind::source ? "sources" : "recorded"; }
 
-/// The names of the JSON files in a folder, sorted; none if there is no such folder.
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  }
-  std::ranges::sort(names);
-  return names;
-}
-
 /// `what` the files in the folder are, for the error.
 void expect_known(const fs::path& folder, const std::string& what, const std::string& name) {
-  const std::vector<std::string> known = names_in(folder);
+  const std::vector<std::string> known = json_names(folder);
   if (std::ranges::find(known, name) != known.end()) return;
   if (known.empty()) throw Error(folder.string(), what, "none", "files *.json");
   throw Error(what, "name", quoted_excerpt(name), one_of(known, name));
@@ -47,6 +36,16 @@ Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, co
 }
 
 }  // namespace
+
+std::vector<std::string> json_names(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
 
 const std::vector<std::string>& ground_truth_names() {
   static const std::vector<std::string> names = {"Tr1", "Tr2", "Tr3", "Tr4", "Tr5"};
@@ -103,13 +102,13 @@ PostureSet load_captured_postures(const std::string& data_folder) {
 }
 
 std::vector<std::string> script_names(const std::string& data_folder) {
-  return names_in(fs::path(data_folder) / "scripts");
+  return json_names(fs::path(data_folder) / "scripts");
 }
 
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder) {
   std::vector<TrajectoryListing> listing;
   for (const TrajectoryKind kind : {TrajectoryKind::source, TrajectoryKind::recorded}) {
-    for (const std::string& name : names_in(fs::path(data_folder) / folder_of(kind))) {
+    for (const std::string& name : json_names(fs::path(data_folder) / folder_of(kind))) {
       listing.push_back({name, kind, trajectory_path(data_folder, kind, name)});
     }
     if (listing.empty()) throw Error(data_folder, "sources", "no trajectories", "files sources/*.json");

@@ -9,6 +9,9 @@
 
 namespace glovebench::trajectories {
 
+/// Names of the JSON files in a folder, sorted. Empty if there is no such folder.
+std::vector<std::string> json_names(const std::string& folder);
+
 // The data folder (README.md).
 
 /// The ground truths of section IV.

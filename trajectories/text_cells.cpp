@@ -47,6 +47,17 @@ std::optional<std::string_view> Lines::next() {
   return line;
 }
 
+std::optional<CellRow> next_row(Lines& lines, size_t count, const std::string& where) {
+  while (const std::optional<std::string_view> line = lines.next()) {
+    if (trimmed(*line).empty()) continue;
+    CellRow row{split(*line, ','), fmt::format("line {}", lines.number())};
+    if (row.cells.size() != count)
+      throw Error(where, row.place, fmt::format("{} cells", row.cells.size()), fmt::format("{}", count));
+    return row;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> number_in(std::string_view cell) {
   double number = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);

@@ -27,6 +27,15 @@ class Lines {
   size_t number_ = 0;
 };
 
+/// A row of a CSV.
+struct CellRow {
+  std::vector<std::string_view> cells;
+  std::string place;  ///< "line 3"
+};
+/// Skips blank lines. Empty after the last row.
+/// Throws: Error for another number of cells.
+std::optional<CellRow> next_row(Lines& lines, size_t count, const std::string& where);
+
 /// The number that fills the cell, also NaN or infinite.
 std::optional<double> number_in(std::string_view cell);
 /// Throws: Error unless the cell is a number from `min` to `max`.

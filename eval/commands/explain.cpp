@@ -12,7 +12,6 @@
 #include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "render/pictures.h"
-#include "reports/results_json.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {

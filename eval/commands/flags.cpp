@@ -17,6 +17,7 @@
 #include "core/hand/hand_file.h"
 #include "core/methods/method.h"
 #include "core/robot/command_limits.h"
+#include "eval/estimates/estimate_format.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
 #include "reports/text.h"
@@ -161,11 +162,8 @@ namespace {
 
 /// Rounded, as the flags take it.
 nlohmann::json transform_json(const Eigen::Isometry3d& T) {
-  const Eigen::Quaterniond q(T.linear());
   nlohmann::json values = nlohmann::json::array();
-  for (const double value :
-       {T.translation().x(), T.translation().y(), T.translation().z(), q.w(), q.x(), q.y(), q.z()})
-    values.push_back(reports::rounded(value));
+  for (const double value : pose_numbers(T)) values.push_back(reports::rounded(value));
   return values;
 }
 

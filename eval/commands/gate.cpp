@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "eval/commands/flags.h"
+#include "eval/commands/options.h"
 #include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "eval/regression/changed_frames.h"

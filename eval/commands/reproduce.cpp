@@ -2,7 +2,6 @@
 
 #include <cstdio>
 
-#include "core/base/error.h"
 #include "eval/commands/flags.h"
 #include "eval/reproduction.h"
 #include "eval/terminal.h"

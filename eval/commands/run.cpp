@@ -1,26 +1,50 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/error.h"
 #include "core/base/file_set.h"
 #include "core/base/registry.h"
 #include "eval/commands/flags.h"
+#include "eval/frame_formats/frame_format.h"
 #include "eval/reproduction.h"
-#include "eval/run_mcap.h"
 #include "eval/run_warnings.h"
-#include "eval/settings_files.h"
 #include "eval/settings_run.h"
 #include "eval/streaming.h"
 #include "eval/suite.h"
 #include "eval/terminal.h"
 #include "reports/comparison/comparison_report.h"
+#include "reports/estimates.h"
 #include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
+
+Estimator stored_estimates(const std::string& path, uint64_t seed) {
+  return [estimates = reports::read_estimates(path), seed](const DeviceFrame&, int number) {
+    return reports::find_hand(estimates, seed, number);
+  };
+}
+
+/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: rendered frames, truth, and estimates of
+/// FOLDER/estimates/.
+/// Throws: Error.
+void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& folder) {
+  const FrameFormat& mcap = find_frame_format("mcap");
+  std::vector<reports::ExperimentKey> written;
+  for (const RunSpec& spec : plan.specs) {
+    const reports::ExperimentKey key = key_of(spec);
+    if (std::ranges::find(written, key) != written.end()) continue;
+    written.push_back(key);
+    const Dataset dataset{folder, to_string(key), workbench.calibration(), workbench.model(),
+                          dataset_readme(mcap, spec)};
+    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed), mcap,
+                 dataset);
+  }
+}
 
 struct RunCommand {
   explicit RunCommand(Command own_command) : command(own_command) {}

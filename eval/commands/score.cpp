@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "core/base/text.h"
-#include "eval/capture_score.h"
 #include "eval/commands/flags.h"
 #include "eval/experiment.h"
 #include "eval/program.h"

@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "eval/commands/flags.h"
-#include "eval/settings_files.h"
+#include "eval/settings_run.h"
 #include "eval/terminal.h"
 
 namespace glovebench::eval {

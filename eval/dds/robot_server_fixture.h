@@ -24,7 +24,7 @@
 #include "core/base/input_file.h"
 #include "core/base/math.h"
 #include "core/robot/arm.h"
-#include "core/robot/command_guard.h"
+#include "core/robot/command_limits.h"
 #include "eval/dds/test_programs.h"
 
 namespace glovebench::eval {

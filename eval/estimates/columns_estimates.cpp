@@ -6,7 +6,6 @@
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/text.h"
-#include "core/hand/skeleton.h"
 #include "eval/estimates/estimate_format.h"
 #include "trajectories/text_cells.h"
 
@@ -166,14 +165,8 @@ std::vector<EstimateSequence> read_columns(std::string_view bytes, const Estimat
   std::vector<EstimateSequence> sequences(1);
   const Columns columns = Headings(headings, flags, where).read(sequences[0]);
   sequences[0].reserve(static_cast<size_t>(std::ranges::count(bytes, '\n')));
-  while (const auto line = lines.next()) {
-    if (trajectories::trimmed(*line).empty()) continue;
-    const Cells cells = trajectories::split(*line, ',');
-    const std::string field = fmt::format("line {}", lines.number());
-    if (cells.size() != headings.size())
-      throw Error(where, field, fmt::format("{} cells", cells.size()), fmt::format("{}", headings.size()));
-    add_row(cells, columns, sequences[0], where, field);
-  }
+  while (const auto row = trajectories::next_row(lines, headings.size(), where))
+    add_row(row->cells, columns, sequences[0], where, row->place);
   return sequences;
 }
 

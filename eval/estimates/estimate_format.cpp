@@ -167,6 +167,12 @@ int64_t timestamp_of(double time, double unit_us, const std::string& where, cons
   return std::llround(time_us);
 }
 
+std::array<double, 7> pose_numbers(const Eigen::Isometry3d& T) {
+  const Eigen::Vector3d p = T.translation();
+  const Eigen::Quaterniond q(T.linear());
+  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
+}
+
 EstimateParts parts_of_joints(std::string_view units, std::string_view frame, const EstimateFlags& flags,
                               const std::string& where) {
   const double is_camera =

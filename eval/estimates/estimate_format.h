@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -71,6 +72,8 @@ double microseconds_of(std::string_view unit, const std::string& flag, const std
                        const std::string& field);
 /// Throws: Error beyond 300 years from 0.
 int64_t timestamp_of(double time, double unit_us, const std::string& where, const std::string& field);
+/// Position (m) and quaternion w x y z.
+std::array<double, 7> pose_numbers(const Eigen::Isometry3d& T);
 /// Parts of joints alone. `frame`: the file's, may be empty.
 /// Throws: Error if neither file nor flags say it.
 EstimateParts parts_of_joints(std::string_view units, std::string_view frame, const EstimateFlags& flags,

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/text.h"
-#include "core/hand/skeleton.h"
 #include "eval/estimates/estimate_format.h"
 
 namespace glovebench::eval {

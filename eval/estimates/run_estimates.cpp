@@ -6,9 +6,8 @@ namespace {
 
 std::vector<double> numbers_of(const reports::Estimate& estimate) {
   std::vector<double> numbers(estimate.posture.begin(), estimate.posture.end());
-  const Eigen::Vector3d position = estimate.T_camera_hand.translation();
-  const Eigen::Quaterniond q(estimate.T_camera_hand.linear());
-  numbers.insert(numbers.end(), {position.x(), position.y(), position.z(), q.w(), q.x(), q.y(), q.z()});
+  const auto pose = pose_numbers(estimate.T_camera_hand);
+  numbers.insert(numbers.end(), pose.begin(), pose.end());
   return numbers;
 }
 

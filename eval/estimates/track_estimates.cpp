@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/error.h"
 #include "core/base/json_cursor.h"
 #include "core/base/math.h"
 #include "core/base/parse_json.h"

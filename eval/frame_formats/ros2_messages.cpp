@@ -1,10 +1,8 @@
 #include "eval/frame_formats/ros2_messages.h"
 
-#include <algorithm>
 #include <bit>
 #include <vector>
 
-#include "core/base/error.h"
 #include "eval/frame_formats/color_view.h"
 
 namespace glovebench::eval {

@@ -7,7 +7,6 @@
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/file_set.h"
 #include "core/base/input_file.h"
-#include "core/base/json_cursor.h"
 #include "core/camera/registration.h"
 #include "core/kinect/disparity.h"
 #include "eval/program.h"

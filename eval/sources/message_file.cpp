@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/base/error.h"
 #include "core/base/text.h"
-#include "eval/sources/field_reader.h"
 
 namespace glovebench::eval {
 namespace {

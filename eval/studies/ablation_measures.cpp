@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <numeric>
 
 #include "eval/studies/ablations.h"
 
@@ -16,28 +15,13 @@ constexpr const char* kColorBlind = "color-blind";
 /// Latency of each movement, averaged over seeds that have one.
 std::vector<std::optional<double>> latencies(const Selection& runs) {
   std::vector<std::optional<double>> result;
-  for (const auto& stratum : sequences_of(runs)) {
-    std::vector<double> values;
-    for (const reports::SequenceMetrics& sequence : stratum)
-      if (sequence.latency_frames) values.push_back(*sequence.latency_frames);
-    result.push_back(reports::mean(values));
-  }
+  for (const auto& stratum : sequences_of(runs))
+    result.push_back(mean_present(stratum, &reports::SequenceMetrics::latency_frames));
   return result;
 }
 
 std::optional<double> mean_of(const std::vector<std::optional<double>>& values, std::span<const int> drawn) {
-  std::vector<double> present;
-  for (const int i : drawn)
-    if (values[i]) present.push_back(*values[i]);
-  return reports::mean(present);
-}
-
-/// A statistic of movements with its interval over movements.
-Measure movement_measure(const std::string& name, const std::string& unit, int movements,
-                         const std::function<std::optional<double>(std::span<const int>)>& statistic) {
-  std::vector<int> all(movements);
-  std::iota(all.begin(), all.end(), 0);
-  return {name, unit, statistic(all), interval_over(movements, "movements", statistic)};
+  return mean_present(drawn, [&](int i) { return values[i]; });
 }
 
 /// 1 in frames with a wrong look-up, else 0.
@@ -110,12 +94,14 @@ std::vector<Measure> lag_measures(const Runs& runs) {
     if (!all || !rest || *all <= 0) return std::nullopt;
     return 1 - *rest / *all;
   };
-  const auto count = static_cast<int>(with.size());
   const auto mean_with = [&](std::span<const int> drawn) { return mean_of(with, drawn); };
   const auto mean_without = [&](std::span<const int> drawn) { return mean_of(without, drawn); };
-  return {movement_measure("lag.frames", "frames", count, mean_with),
-          movement_measure("lag.without_filter_frames", "frames", count, mean_without),
-          movement_measure("lag.filter_share", "", count, share)};
+  const auto over_movements = [&](const char* name, const char* unit, const auto& statistic) {
+    return measure_over(static_cast<int>(with.size()), "movements", name, unit, statistic);
+  };
+  return {over_movements("lag.frames", "frames", mean_with),
+          over_movements("lag.without_filter_frames", "frames", mean_without),
+          over_movements("lag.filter_share", "", share)};
 }
 
 std::vector<Measure> color_measures(const Runs& runs) {

@@ -30,11 +30,9 @@ std::vector<std::string> movements_for(const std::string& database) {
 
 /// Mean over movements and seeds with a value.
 Cell sequence_cell(const Selection& runs, std::optional<double> SequenceMetrics::*metric) {
-  std::vector<double> values;
-  for (const auto& stratum : sequences_of(runs))
-    for (const SequenceMetrics& sequence : stratum)
-      if (sequence.*metric) values.push_back(*(sequence.*metric));
-  return cell(reports::mean(values));
+  std::vector<SequenceMetrics> all;
+  for (auto& sequences : sequences_of(runs)) append(all, std::move(sequences));
+  return cell(mean_present(all, metric));
 }
 
 std::vector<Cell> row_of(const Runs& runs, const Ablation& ablation, const AblationRow& row) {
@@ -42,7 +40,7 @@ std::vector<Cell> row_of(const Runs& runs, const Ablation& ablation, const Ablat
   const AblationRow& first = ablation.rows.front();
   const Selection reference = select(runs, first.setting, first.database);
   std::vector<Cell> result = {ablation.name, row.label, row.database};
-  std::ranges::copy(error_cells(selected, &row == &first ? nullptr : &reference), std::back_inserter(result));
+  append(result, error_cells(selected, &row == &first ? nullptr : &reference));
   result.push_back(cell(covered_percent(selected)));
   for (const auto metric : {&SequenceMetrics::jitter_position_mm, &SequenceMetrics::jitter_rotation_deg,
                             &SequenceMetrics::latency_frames})
@@ -63,7 +61,7 @@ Table empty_ablation_table() {
       {{"ablation", "ablation"}, {"setting", "setting"}, {"database", "database"}},
       3,
       {}};
-  std::ranges::copy(error_columns(), std::back_inserter(table.columns));
+  append(table.columns, error_columns());
   table.columns.insert(table.columns.end(), {{"covered_percent", "covered %", 1},
                                              {"jitter_position_mm", "jitter mm"},
                                              {"jitter_rotation_deg", "jitter deg"},
@@ -143,8 +141,7 @@ Runs run_rows(const StudyContext& context, const std::vector<Ablation>& wanted) 
     // Runs of the same images become neighbors, to be rendered once.
     std::ranges::stable_sort(
         settings, {}, [](const Setting& setting) { return std::pair(setting.subject, setting.clutter_in_volume); });
-    std::ranges::move(run_study_settings(context, settings, {database}, TruthKind::source, movements_for(database)),
-                      std::back_inserter(runs));
+    append(runs, run_study_settings(context, settings, {database}, TruthKind::source, movements_for(database)));
   }
   return runs;
 }
@@ -159,26 +156,26 @@ Table ablation_table(const Runs& runs, const std::vector<Ablation>& ablations) {
 reports::StudyResult run_ablations(const StudyContext& context) {
   const std::vector<Ablation> changes = ablations();
   std::vector<Ablation> wanted = changes;
-  std::ranges::move(measured_ablations(), std::back_inserter(wanted));
+  append(wanted, measured_ablations());
   Runs runs = run_rows(context, wanted);
 
   // One in a quick reproduction: building a database of 20 postures takes most of its time.
   std::vector<PostureSet> choices;
   for (int number = 1; number <= (context.options.quick ? 1 : 3); ++number)
     choices.push_back(random_choice(number));
-  std::ranges::move(run_posture_choices(context, choices), std::back_inserter(runs));
+  append(runs, run_posture_choices(context, choices));
 
   std::vector<Ablation> shown = changes;
   shown.push_back(posture_choice_ablation(choices));
   reports::StudyResult result{"ablations", "What the paper asserts, one change at a time", {}, {}};
   result.tables = {ablation_table(runs, shown), posture_choice_table(runs, choices), color_table(runs)};
   result.measures = lag_measures(runs);
-  std::ranges::move(color_measures(runs), std::back_inserter(result.measures));
+  append(result.measures, color_measures(runs));
   result.measures.push_back(interpolation_measure(runs));
 
   for (reports::StudyResult& light : std::array{run_light(context), run_light_curves(context)}) {
-    std::ranges::move(light.tables, std::back_inserter(result.tables));
-    std::ranges::move(light.measures, std::back_inserter(result.measures));
+    append(result.tables, std::move(light.tables));
+    append(result.measures, std::move(light.measures));
   }
   return result;
 }

@@ -125,12 +125,11 @@ Runs run_deviations_of(const StudyContext& context, const std::vector<RunSpec>& 
       (has_other_views(changed) ? with_other_views : all).push_back(std::move(changed));
     }
   }
-  const RunOptions how = {context.workbench.config().threads, context.store};
-  Runs runs = measure(context.workbench, execute(context.workbench, all, how));
+  Runs runs = run_specs(context, all);
   WorkbenchConfig other = context.workbench.config();
   other.views = with_other_views.front().tracker.views;
   Workbench workbench(other);
-  std::ranges::move(measure(workbench, execute(workbench, with_other_views, how)), std::back_inserter(runs));
+  append(runs, run_specs({workbench, context.options, context.store}, with_other_views));
   return runs;
 }
 
@@ -172,15 +171,9 @@ Table empty_deviations_table() {
       {{"deviation", "deviation"}, {"paper", "the paper"}, {"ours", "ours"}, {"instead", "measured instead"}},
       4,
       {}};
-  struct Error {
-    const char *key, *unit, *heading;
-  };
-  for (const Error& error :
-       {Error{"position", "mm", "mm"}, {"posture", "deg", "posture"}, {"rotation", "deg", "rotation"}}) {
-    const std::string key = std::string(error.key) + "_change_" + error.unit;
-    table.columns.insert(table.columns.end(),
-                         {{key, error.heading}, {key + "_low", "low"}, {key + "_high", "high"}});
-  }
+  add_with_interval(table.columns, {"position_change_mm", "mm"});
+  add_with_interval(table.columns, {"posture_change_deg", "posture"});
+  add_with_interval(table.columns, {"rotation_change_deg", "rotation"});
   table.columns.push_back({"covered_percent", "cov. %", 1});
   return table;
 }
@@ -202,8 +195,7 @@ Table deviations_table(const Runs& runs) {
     const Selection changed = with_setting(runs, deviation.name);
     for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
       const std::vector<double> changes = changes_by_movement(changed, paper, metric);
-      std::ranges::copy(cells({reports::mean(changes), reports::student_interval(changes, "movements")}),
-                        std::back_inserter(row));
+      append(row, cells({reports::mean(changes), reports::student_interval(changes, "movements")}));
     }
     row.push_back(cell(covered_percent(changed)));
   }

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/tracker/tracker_config.h"

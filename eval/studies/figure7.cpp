@@ -18,7 +18,6 @@ namespace glovebench::eval {
 namespace {
 
 using reports::Cell;
-using reports::ConfidenceInterval;
 using reports::Measure;
 using reports::Table;
 
@@ -68,11 +67,7 @@ double mean_of(const std::vector<double>& values, std::span<const int> drawn) {
   return sum / static_cast<double>(drawn.size());
 }
 
-/// Bootstrap interval of a statistic of queries.
-std::optional<ConfidenceInterval> query_interval(
-    size_t queries, const std::function<std::optional<double>(std::span<const int>)>& statistic) {
-  return interval_over(static_cast<int>(queries), "trial queries", statistic);
-}
+constexpr const char* kQueries = "trial queries";
 
 /// A step costs time if a distance takes 10% longer. Medians differ by up to 8% from run to run.
 constexpr double kLeastGrowth = 1.1;
@@ -91,8 +86,8 @@ double percent_up_to(const std::vector<double>& ranks, double limit) {
 }
 
 std::vector<Cell> row_of(const SizeResult& result) {
-  const auto interval =
-      query_interval(result.rank.size(), [&](std::span<const int> drawn) { return mean_of(result.rank, drawn); });
+  const auto mean_rank = [&](std::span<const int> drawn) { return mean_of(result.rank, drawn); };
+  const auto interval = interval_over(static_cast<int>(result.rank.size()), kQueries, mean_rank);
   return {"plain",
           int64_t{result.size},
           static_cast<int64_t>(result.rank.size()),
@@ -144,10 +139,7 @@ Table make_table(const std::vector<SizeResult>& results, std::string explanation
 }
 
 std::vector<Measure> make_measures(const std::vector<SizeResult>& results, int redraws) {
-  const size_t queries = results.front().rank.size();
-  std::vector<int> all(queries);
-  for (size_t q = 0; q < queries; ++q) all[q] = static_cast<int>(q);
-
+  const auto queries = static_cast<int>(results.front().rank.size());
   const auto lower_rank = [&](std::span<const int> drawn) -> double {
     return count_steps(
         results, [&](const SizeResult& r) { return mean_of(r.rank, drawn); }, std::less<>());
@@ -158,10 +150,11 @@ std::vector<Measure> make_measures(const std::vector<SizeResult>& results, int r
   const double higher_time = count_steps(
       results, [](const SizeResult& r) { return reports::percentile(r.distance_us, 0.5).value(); },
       [](double larger, double smaller) { return larger >= kLeastGrowth * smaller; });
-  return {{"figure7.steps_with_lower_rank", "", lower_rank(all), query_interval(queries, lower_rank)},
+  const std::string ratio_name =
+      fmt::format("figure7.mean_rank_{}px_over_{}px", results.front().size, results.back().size);
+  return {measure_over(queries, kQueries, "figure7.steps_with_lower_rank", "", lower_rank),
           {"figure7.steps_with_higher_time", "", higher_time, std::nullopt, true},
-          {fmt::format("figure7.mean_rank_{}px_over_{}px", results.front().size, results.back().size), "",
-           rank_ratio(all), query_interval(queries, rank_ratio)},
+          measure_over(queries, kQueries, ratio_name, "", rank_ratio),
           {"figure7.redrawn_queries", "", static_cast<double>(redraws), std::nullopt}};
 }
 

@@ -109,7 +109,7 @@ std::vector<Cell> errors_row(const std::string& database, const Cascade& cascade
   const Sample posture = sample_of(runs, "posture_rms_deg");
   std::vector<Cell> row = {database, to_string(cascade), std::string(to_string(implementation)),
                            std::string(to_string(truth)), static_cast<int64_t>(times_ms(runs).size())};
-  std::ranges::copy(cells(estimate_mean(posture)), std::back_inserter(row));
+  append(row, cells(estimate_mean(posture)));
   row.push_back(cell(mean(sample_of(runs, "position_error_mm"))));
   row.push_back(cell(mean(sample_of(runs, "rotation_error_deg"))));
   row.push_back(cell(covered_percent(runs)));
@@ -219,7 +219,7 @@ reports::StudyResult run_figure8(const StudyContext& context) {
     add_rows(result, truth, cascades, runs, measure_survival(context, kDatabases, cascades, truth), timed);
     if (judged && truth == TruthKind::source) result.measures = cascade_error_measures(runs);
   }
-  if (judged) std::ranges::move(time_measures(timed), std::back_inserter(result.measures));
+  if (judged) append(result.measures, time_measures(timed));
   return result;
 }
 

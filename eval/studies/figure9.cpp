@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -81,7 +80,7 @@ void add_errors(Table& table, TruthKind truth, const std::string& database, cons
     }));
     std::vector<reports::Cell> row = {std::string(to_string(truth)), database, int64_t{factor}, cell(points)};
     for (const char* metric : {"position_error_mm", "rotation_error_deg"})
-      std::ranges::copy(cells(estimate_mean(sample_of(selected, metric))), std::back_inserter(row));
+      append(row, cells(estimate_mean(sample_of(selected, metric))));
     row.push_back(cell(covered_percent(selected)));
     table.rows.push_back(row);
   }
@@ -136,8 +135,7 @@ reports::StudyResult run_figure9(const StudyContext& context) {
     const Runs runs = run_study_settings(context, settings, databases, truth, trajectories);
     for (const std::string& database : databases) {
       add_errors(result.tables[0], truth, database, runs);
-      if (database == kClaimedDatabase)
-        std::ranges::move(sampling_error_measures(runs), std::back_inserter(result.measures));
+      if (database == kClaimedDatabase) append(result.measures, sampling_error_measures(runs));
     }
   }
   for (const Implementation implementation : {Implementation::plain, Implementation::fast}) {
@@ -145,7 +143,7 @@ reports::StudyResult run_figure9(const StudyContext& context) {
         time_settings(context, settings, {kClaimedDatabase}, implementation, kSampled.front().trajectories);
     add_times(result.tables[1], implementation, timed);
     if (implementation == Implementation::plain)
-      std::ranges::move(time_measures(of_factor(timed, kFactors.back())), std::back_inserter(result.measures));
+      append(result.measures, time_measures(of_factor(timed, kFactors.back())));
   }
   return result;
 }

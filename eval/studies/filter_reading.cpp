@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "eval/studies/sample.h"
 #include "reports/paper_numbers.h"
 
 namespace glovebench::eval {
@@ -36,18 +37,13 @@ std::optional<double> percent_of_three_quarters(const std::vector<ErrorSeries>& 
 }
 
 std::optional<double> mean_autocorrelation(const std::vector<ErrorSeries>& seeds) {
-  std::vector<double> values;
-  for (const ErrorSeries& errors : seeds)
-    if (const auto value = autocorrelation(errors)) values.push_back(*value);
-  return reports::mean(values);
+  return mean_present(seeds, autocorrelation);
 }
 
 std::optional<double> mean_error(const std::vector<ErrorSeries>& seeds) {
-  std::vector<double> values;
-  for (const ErrorSeries& errors : seeds)
-    for (const auto& error : errors)
-      if (error) values.push_back(*error);
-  return reports::mean(values);
+  ErrorSeries all;
+  for (const ErrorSeries& errors : seeds) all.insert(all.end(), errors.begin(), errors.end());
+  return mean_present(all);
 }
 
 struct FilterRow {

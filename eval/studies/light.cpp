@@ -98,9 +98,7 @@ Measure rgb_excess(const std::string& name, const LightResult& rgb, const LightR
     for (const int i : drawn) sum += mislabeled_percent(rgb.errors[i]) - mislabeled_percent(yuv.errors[i]);
     return sum / static_cast<double>(drawn.size());
   };
-  std::vector<int> all(held_out);
-  std::iota(all.begin(), all.end(), 0);
-  return {name, "percent", excess(all), interval_over(held_out, "held-out lightings", excess)};
+  return measure_over(held_out, "held-out lightings", name, "percent", excess);
 }
 
 /// Half and double strength, warm and cold, from the default direction.

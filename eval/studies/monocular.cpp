@@ -70,7 +70,7 @@ Table empty_monocular_table() {
 std::vector<Cell> row_of(const Setting& setting, const std::string& database, const Selection& runs) {
   std::vector<Cell> row = {setting.tracker.method, database, std::string(to_string(TruthKind::source)),
                            int64_t{setting.subject}};
-  std::ranges::copy(cells(depth_error_cm(runs)), std::back_inserter(row));
+  append(row, cells(depth_error_cm(runs)));
   const auto lateral_mm = [](const Eigen::Vector3d& offset) { return 1000 * offset.head<2>().norm(); };
   row.push_back(cell(mean(offset_sample(runs, lateral_mm))));
   for (const char* metric : {"position_error_mm", "rotation_error_deg", "posture_rms_deg"})

@@ -24,9 +24,7 @@ std::vector<Posture> pool() {
 std::vector<Cell> row_of(const Runs& runs, const PostureSet& set) {
   const Selection reference = select(runs, kDefaultSetting, kChosen);
   std::vector<Cell> row = {set.name, covering_radius_deg(set)};
-  std::ranges::copy(
-      error_cells(select(runs, kDefaultSetting, set.name), set.name == kChosen ? nullptr : &reference),
-      std::back_inserter(row));
+  append(row, error_cells(select(runs, kDefaultSetting, set.name), set.name == kChosen ? nullptr : &reference));
   return row;
 }
 
@@ -68,8 +66,7 @@ Runs run_posture_choices(const StudyContext& context, const std::vector<PostureS
     workbench.database(set);
     const StudyContext own{workbench, context.options, context.store};
     const Setting setting{.name = kDefaultSetting, .tracker = context.options.tracker};
-    std::ranges::move(run_study_settings(own, {setting}, {set.name}, reports::TruthKind::source),
-                      std::back_inserter(runs));
+    append(runs, run_study_settings(own, {setting}, {set.name}, reports::TruthKind::source));
   }
   return runs;
 }
@@ -86,7 +83,7 @@ reports::Table posture_choice_table(const Runs& runs, const std::vector<PostureS
       {{"set", "set"}, {"covering_radius_deg", "covering radius deg"}},
       1,
       {}};
-  std::ranges::copy(error_columns(), std::back_inserter(table.columns));
+  append(table.columns, error_columns());
   table.rows.push_back(row_of(runs, trajectories::posture_set(trajectory_folder(), kChosen)));
   for (const PostureSet& set : choices) table.rows.push_back(row_of(runs, set));
   return table;

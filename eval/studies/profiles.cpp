@@ -22,9 +22,7 @@ using reports::Table;
 constexpr std::string_view kPaper = "paper", kLiteral = "paper-literal", kRecommended = "recommended";
 
 RunResult run_plan(const StudyContext& context, const Plan& plan) {
-  const RunOptions how = {context.workbench.config().threads, context.store};
-  return results_of(plan, measure(context.workbench, execute(context.workbench, plan.specs, how)),
-                    context.workbench);
+  return results_of(plan, run_specs(context, plan.specs), context.workbench);
 }
 
 Plan figure4_with(const StudyContext& context, std::string_view profile_name) {

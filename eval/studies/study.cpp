@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -101,12 +101,15 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
   return specs;
 }
 
+Runs run_specs(const StudyContext& context, std::span<const RunSpec> specs) {
+  const RunOptions options = {context.workbench.config().threads, context.store};
+  return measure(context.workbench, execute(context.workbench, specs, options));
+}
+
 Runs run_study_settings(const StudyContext& context, const std::vector<Setting>& settings,
                         const std::vector<std::string>& databases, reports::TruthKind truth,
                         const std::vector<std::string>& trajectories) {
-  const std::vector<RunSpec> specs = study_specs(context, settings, databases, truth, trajectories);
-  const RunOptions options = {context.workbench.config().threads, context.store};
-  return measure(context.workbench, execute(context.workbench, specs, options));
+  return run_specs(context, study_specs(context, settings, databases, truth, trajectories));
 }
 
 Runs time_settings(const StudyContext& context, const std::vector<Setting>& settings,
@@ -122,8 +125,7 @@ Runs time_settings(const StudyContext& context, const std::vector<Setting>& sett
         spec.tracker.lookup.implementation = to_string(implementation);
         spec.tracker.icp.implementation = implementation;
       }
-      std::ranges::move(measure(context.workbench, execute(context.workbench, specs, {})),
-                        std::back_inserter(runs));
+      append(runs, measure(context.workbench, execute(context.workbench, specs, {})));
     }
   }
   return runs;
@@ -192,6 +194,18 @@ std::optional<double> tracked_percent(const Selection& runs) {
   }));
 }
 
+void add_with_interval(std::vector<reports::Column>& columns, const reports::Column& column) {
+  columns.push_back(column);
+  for (const std::string end : {"low", "high"}) columns.push_back({column.key + "_" + end, end, column.digits});
+}
+
+reports::Measure measure_over(int count, const std::string& over, const std::string& name, const std::string& unit,
+                              const std::function<std::optional<double>(std::span<const int> drawn)>& statistic) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return {name, unit, statistic(all), interval_over(count, over, statistic)};
+}
+
 const std::vector<reports::Column>& error_columns() {
   static const std::vector<reports::Column> columns = {
       {"position_error_mm", "position mm"},   {"position_change_mm", "change"},
@@ -208,8 +222,7 @@ std::vector<reports::Cell> error_cells(const Selection& runs, const Selection* r
   for (const char* metric : {"position_error_mm", "posture_rms_deg", "rotation_error_deg"}) {
     const Sample errors = sample_of(runs, metric);
     result.push_back(cell(mean(errors)));
-    std::ranges::copy(cells(reference ? estimate_difference(errors, sample_of(*reference, metric)) : Estimated{}),
-                      std::back_inserter(result));
+    append(result, cells(reference ? estimate_difference(errors, sample_of(*reference, metric)) : Estimated{}));
   }
   return result;
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,7 +59,9 @@ std::vector<RunSpec> study_specs(const StudyContext& context, const std::vector<
                                  const std::vector<std::string>& trajectories = {});
 
 using Runs = std::vector<MeasuredRun>;
-/// Runs `study_specs`. Use errors only: runs share the machine.
+/// Use errors only: runs share the machine.
+Runs run_specs(const StudyContext& context, std::span<const RunSpec> specs);
+/// `run_specs` of `study_specs`.
 Runs run_study_settings(const StudyContext& context, const std::vector<Setting>& settings,
                         const std::vector<std::string>& databases, reports::TruthKind truth,
                         const std::vector<std::string>& trajectories = {});
@@ -84,10 +89,21 @@ std::optional<double> tracked_percent(const Selection& runs);
 /// Value, low, high.
 std::vector<reports::Cell> cells(const Estimated& estimated);
 using reports::cell;
+/// The column, then those of its interval: KEY_low and KEY_high.
+void add_with_interval(std::vector<reports::Column>& columns, const reports::Column& column);
 const std::vector<reports::Column>& error_columns();
 /// 12 cells: mean errors of position, posture and rotation, each with its change from `reference` (may be null)
 /// and interval.
 std::vector<reports::Cell> error_cells(const Selection& runs, const Selection* reference);
+
+/// A statistic of `count` things, with its interval_over them.
+reports::Measure measure_over(int count, const std::string& over, const std::string& name, const std::string& unit,
+                              const std::function<std::optional<double>(std::span<const int> drawn)>& statistic);
+
+template <typename T>
+void append(std::vector<T>& all, std::vector<T> more) {
+  std::ranges::move(more, std::back_inserter(all));
+}
 
 reports::StudyResult run_figure7(const StudyContext& context);
 reports::StudyResult run_figure8(const StudyContext& context);

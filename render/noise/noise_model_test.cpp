@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <numeric>
-
 #include "core/base/error.h"
 #include "core/base/registry.h"
 #include "render/noise/depth_gradient.h"

@@ -6,7 +6,6 @@
 
 #include "ci/build_paths.h"
 #include "core/base/error.h"
-#include "core/base/math.h"
 #include "trajectories/capture/calibrate_hand.h"
 #include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"

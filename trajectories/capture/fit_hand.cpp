@@ -1,13 +1,12 @@
 #include "trajectories/capture/fit_hand.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/base/error.h"
 #include "core/base/math.h"
 #include "trajectories/capture/calibrate_hand.h"
 #include "trajectories/capture/capture_hand.h"
+#include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"
 #include "trajectories/generation/low_dispersion.h"
 

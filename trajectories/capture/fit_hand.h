@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "trajectories/capture/capture_hand.h"
-#include "trajectories/capture/fit_frame.h"
 #include "trajectories/capture/marker_sequence.h"
 
 namespace glovebench::trajectories {

@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/math.h"
-#include "core/base/text.h"
 #include "core/pose/horn.h"
 #include "trajectories/generation/low_dispersion.h"
 #include "trajectories/generation/motion_script.h"

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "ci/build_paths.h"
-#include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"

@@ -1,7 +1,5 @@
 #include "trajectories/capture/marker_places.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/base/error.h"

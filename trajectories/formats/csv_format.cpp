@@ -53,14 +53,8 @@ MarkerSequence parse_csv(std::string_view text, Side, const std::string& where) 
   MarkerSequence sequence;
   const double unit = read_headings(split(*lines.next(), ','), sequence, where);
   int64_t first_us = 0;
-  while (const std::optional<std::string_view> text_line = lines.next()) {
-    if (trimmed(*text_line).empty()) continue;
-    const std::vector<std::string_view> cells = split(*text_line, ',');
-    const std::string line = fmt::format("line {}", lines.number());
-    if (cells.size() != 3 * sequence.names.size() + 1) {
-      throw Error(where, line, fmt::format("{} cells", cells.size()),
-                  fmt::format("{}", 3 * sequence.names.size() + 1));
-    }
+  while (const auto row = next_row(lines, 3 * sequence.names.size() + 1, where)) {
+    const auto& [cells, line] = *row;
     MarkerFrame frame;
     frame.points.reserve(sequence.names.size());
     frame.timestamp_us = timestamp_from(cells[0], where, fmt::format("{}, {}", line, kTime));

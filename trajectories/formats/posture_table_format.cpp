@@ -42,13 +42,8 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
   expect_headings(split(*lines.next(), ','), where);
   PostureSet set{.name = set_name, .posture_names = {}, .postures = {}};
   std::set<std::string> names;
-  while (const std::optional<std::string_view> text_line = lines.next()) {
-    if (trimmed(*text_line).empty()) continue;
-    const std::vector<std::string_view> cells = split(*text_line, ',');
-    const std::string line = fmt::format("line {}", lines.number());
-    if (cells.size() != kAngleCount + 1) {
-      throw Error(where, line, fmt::format("{} cells", cells.size()), fmt::format("{}", kAngleCount + 1));
-    }
+  while (const auto row = next_row(lines, kAngleCount + 1, where)) {
+    const auto& [cells, line] = *row;
     if (!is_name(cells[0])) throw Error(where, line + ", name", quoted_excerpt(cells[0]), kNameExpected);
     set.posture_names.emplace_back(cells[0]);
     expect_new_name(set.posture_names.back(), names, where, line + ", name");

@@ -5,7 +5,6 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/text.h"

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "core/base/error.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "core/base/text.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/random.h"
 #include "core/database/database.h"
 #include "core/hand/skeleton.h"
 #include "trajectories/generation/families/movement_family.h"
@@ -23,6 +24,10 @@ struct MovementMaterial {
 };
 /// Throws: Error.
 MovementMaterial load_movement_material(const std::string& data_folder, const Skeleton& skeleton);
+
+/// Within limits and `bend`. MCP and PIP flexions are uniform and correlated (kNeighborCorrelation). DIP is a
+/// share of PIP (kDipShare). Parts may overlap, and a gesture may be near.
+Posture random_posture(const MovementFamily& family, const Range& bend, RandomStream& random);
 
 /// At 15 Hz. Depends only on family, seed and material. A shorter movement is the beginning of a longer one.
 /// Throws: Error if the ranges allow no posture or pose.

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/base/registry.h"
 #include "trajectories/generation/families/movement_family.h"
 

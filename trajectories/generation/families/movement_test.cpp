@@ -9,8 +9,6 @@
 #include "core/camera/rgbd_calibration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/hand/hand_model.h"
-#include "trajectories/catalog.h"
-#include "trajectories/generation/families/random_posture.h"
 #include "trajectories/generation/families/solid_hand.h"
 #include "trajectories/generation/motion_script.h"
 #include "trajectories/trajectory_properties.h"

@@ -10,7 +10,7 @@
 #include "core/base/random.h"
 #include "core/hand/hand_model.h"
 #include "core/pose/closest_point.h"
-#include "trajectories/generation/families/random_posture.h"
+#include "trajectories/generation/families/movement.h"
 
 namespace glovebench::trajectories {
 namespace {
