@@ -38,6 +38,43 @@ ClaimSet changed_set(const std::function<void(json&)>& change) {
   change(document);
   return parse_claims(document.dump(), "claims.json");
 }
+
+bool is_kept(ClaimChange earlier, const ClaimChange& later) {
+  if (!earlier.commit) earlier.commit = later.commit;
+  if (!earlier.came_out) earlier.came_out = later.came_out;
+  return earlier == later;
+}
+bool is_kept(JudgingChange earlier, const JudgingChange& later) {
+  if (!earlier.commit) earlier.commit = later.commit;
+  return earlier == later;
+}
+
+template <typename Change>
+void compare(const std::string& whose, const std::vector<Change>& earlier, const std::vector<Change>& later,
+             std::vector<std::string>& found) {
+  for (size_t i = 0; i < earlier.size(); ++i) {
+    if (i >= later.size())
+      found.push_back(fmt::format("{}: entry {} of its history is gone", whose, i + 1));
+    else if (!is_kept(earlier[i], later[i]))
+      found.push_back(fmt::format("{}: entry {} of its history is another one", whose, i + 1));
+  }
+}
+
+/// A sentence per entry of `earlier` that `later` changes. It may add entries, and fill an empty commit or
+/// `came_out`.
+std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later) {
+  std::vector<std::string> found;
+  compare("judging", earlier.judging, later.judging, found);
+  for (const Claim& claim : earlier.claims) {
+    const auto now = std::ranges::find(later.claims, claim.id, &Claim::id);
+    if (now == later.claims.end())
+      found.push_back(fmt::format("{}: the claim is gone", claim.id));
+    else
+      compare(claim.id, claim.history, now->history, found);
+  }
+  return found;
+}
+
 std::string history_error(const std::function<void(json&)>& change) {
   try {
     changed_set(change);

@@ -59,14 +59,6 @@ Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
 
 Json or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
 
-/// As in claims.json, but a rule is in words.
-Json field_json(const ClaimDefinition& definition, const std::string& field) {
-  if (field == "required") return definition.required;
-  if (field == "withdrawn") return definition.withdrawn;
-  if (field == "ours") return definition.ours;
-  return field_text(definition, field);
-}
-
 Json history_json(const Claim& claim) {
   Json history = Json::array();
   for (const ClaimChange& change : claim.history) {
@@ -99,22 +91,16 @@ Json verdict_json(const ClaimVerdict& verdict) {
                {"interval", interval_json(verdict.measure->interval)},
                {"is_time", verdict.measure->is_time}};
   }
-  return {{"id", verdict.claim.id},
-          {"outcome", to_string(verdict.outcome)},
-          {"required", claim.required},
-          {"kind", to_string(claim.kind)},
-          {"claim", claim.claim},
-          {"quote", claim.quote},
-          {"source", claim.source},
-          {"paper_value", claim.paper_value},
-          {"measured", claim.measured},
-          {"rule", to_string(claim.rule)},
-          {"ours", claim.ours},
-          {"holm_p", rounded_or_null(verdict.p)},
-          {"measure_name", claim.measure},
-          {"measure", std::move(measure)},
-          {"if_not", claim.if_not},
-          {"history", history_json(verdict.claim)}};
+  Json json = {{"id", verdict.claim.id}, {"outcome", to_string(verdict.outcome)}};
+  for (const char* field :
+       {"required", "kind", "claim", "quote", "source", "paper_value", "measured", "rule", "ours"})
+    json[field] = field_json(claim, field);
+  json["holm_p"] = rounded_or_null(verdict.p);
+  json["measure_name"] = claim.measure;
+  json["measure"] = std::move(measure);
+  json["if_not"] = claim.if_not;
+  json["history"] = history_json(verdict.claim);
+  return json;
 }
 
 Json required_json(const RequiredClaims& count) {
@@ -126,16 +112,9 @@ Json required_json(const RequiredClaims& count) {
 
 Json csv_row(const std::string& run, const ClaimVerdict& verdict) {
   const ClaimDefinition& claim = verdict.claim.definition();
-  Json row = {run,
-              verdict.claim.id,
-              to_string(verdict.outcome),
-              claim.required,
-              to_string(claim.kind),
-              claim.source,
-              claim.paper_value,
-              claim.measure,
-              to_string(claim.rule),
-              claim.ours};
+  Json row = {run, verdict.claim.id, to_string(verdict.outcome)};
+  for (const char* field : {"required", "kind", "source", "paper_value", "measure", "rule", "ours"})
+    row.push_back(field_json(claim, field));
   const auto& measure = verdict.measure;
   row.push_back(measure ? Json(measure->unit) : Json());
   row.push_back(measure ? rounded_or_null(measure->value) : Json());

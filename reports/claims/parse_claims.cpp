@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
+#include "core/base/error.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "reports/claims/claims.h"
@@ -32,8 +34,6 @@ Rule read_rule(const JsonCursor& json) {
   return rule;
 }
 
-ClaimKind read_kind(const JsonCursor& json) { return json.one_of<ClaimKind>(); }
-
 /// One line that is not empty.
 std::string read_sentence(const JsonCursor& json) {
   const std::string text = json.text();
@@ -56,32 +56,38 @@ std::string read_id(const JsonCursor& json, const std::vector<Claim>& before) {
 struct Field {
   std::string_view name;
   void (*read)(ClaimDefinition& definition, const JsonCursor& json);
-  bool (*equal)(const ClaimDefinition& a, const ClaimDefinition& b);
+  nlohmann::ordered_json (*write)(const ClaimDefinition& definition);
 };
 
+/// `read_value`: of a JsonCursor.
 template <auto member, auto read_value>
 constexpr Field field(std::string_view name) {
-  return {name, [](ClaimDefinition& definition, const JsonCursor& json) { definition.*member = read_value(json); },
-          [](const ClaimDefinition& a, const ClaimDefinition& b) { return a.*member == b.*member; }};
+  return {name,
+          [](ClaimDefinition& definition, const JsonCursor& json) {
+            definition.*member = std::invoke(read_value, json);
+          },
+          [](const ClaimDefinition& definition) -> nlohmann::ordered_json {
+            if constexpr (requires { to_string(definition.*member); })
+              return to_string(definition.*member);
+            else
+              return definition.*member;
+          }};
 }
-
-std::string read_text(const JsonCursor& json) { return json.text(); }
-bool read_boolean(const JsonCursor& json) { return json.boolean(); }
 
 /// The first ten are in a claim's first entry. The others were added later and have defaults.
 constexpr size_t kFirstFields = 10;
 constexpr std::array<Field, 12> kFields = {field<&ClaimDefinition::claim, read_sentence>("claim"),
                                            field<&ClaimDefinition::source, read_sentence>("source"),
-                                           field<&ClaimDefinition::paper_value, read_text>("paper_value"),
+                                           field<&ClaimDefinition::paper_value, &JsonCursor::text>("paper_value"),
                                            field<&ClaimDefinition::measured, read_sentence>("measured"),
                                            field<&ClaimDefinition::measure, read_sentence>("measure"),
                                            field<&ClaimDefinition::rule, read_rule>("rule"),
-                                           field<&ClaimDefinition::kind, read_kind>("kind"),
-                                           field<&ClaimDefinition::required, read_boolean>("required"),
-                                           field<&ClaimDefinition::withdrawn, read_boolean>("withdrawn"),
+                                           field<&ClaimDefinition::kind, &JsonCursor::one_of<ClaimKind>>("kind"),
+                                           field<&ClaimDefinition::required, &JsonCursor::boolean>("required"),
+                                           field<&ClaimDefinition::withdrawn, &JsonCursor::boolean>("withdrawn"),
                                            field<&ClaimDefinition::if_not, read_sentence>("if_not"),
                                            field<&ClaimDefinition::quote, read_sentence>("quote"),
-                                           field<&ClaimDefinition::ours, read_boolean>("ours")};
+                                           field<&ClaimDefinition::ours, &JsonCursor::boolean>("ours")};
 
 std::string read_date(const JsonCursor& json, const std::string& before) {
   const std::string date = json.text();
@@ -101,12 +107,12 @@ std::optional<std::string> read_commit(const JsonCursor& json, bool is_newest) {
 
 /// Sets the fields that a change names: at least the first ones in the first change, only different ones later.
 void apply(const JsonCursor& set, bool is_first, ClaimChange& change) {
-  const ClaimDefinition before = change.definition;
   for (const auto& [name, value] : set.members()) {
+    const ClaimDefinition before = change.definition;
     const auto known = std::ranges::find(kFields, name, &Field::name);
     if (known == kFields.end()) set.fail(fmt::format("fields of a claim, which {} is not", name));
     known->read(change.definition, value);
-    if (!is_first && known->equal(before, change.definition)) value.fail("another value than before");
+    if (!is_first && change.definition == before) value.fail("another value than before");
     change.set.push_back(name);
   }
   if (is_first)
@@ -155,11 +161,16 @@ std::vector<JudgingChange> read_judging(const JsonCursor& json) {
 
 }  // namespace
 
+nlohmann::ordered_json field_json(const ClaimDefinition& definition, std::string_view field) {
+  const auto known = std::ranges::find(kFields, field, &Field::name);
+  check(known != kFields.end(), "a field of a claim");
+  return known->write(definition);
+}
+
 ClaimSet parse_claims(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text("glovebench-claims");
-  json["version"].integer(3, 3);
+  json.expect_format("glovebench-claims", 3);
   json.expect_keys({"format", "version", "judging", "claims"});
   ClaimSet set;
   set.judging = read_judging(json["judging"]);
