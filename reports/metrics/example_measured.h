@@ -4,9 +4,9 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/example_frame.h"
 #include "reports/metrics/measure_frame.h"
-#include "reports/metrics/visibility.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
