@@ -14,10 +14,10 @@
 #include <stdexcept>
 
 #include "ci/build_paths.h"
-#include "core/base/error.h"
 #include "core/test_folder.h"
 #include "reports/claims/claims.h"
 #include "reports/embedded.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -76,12 +76,7 @@ std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& late
 }
 
 std::string history_error(const std::function<void(json&)>& change) {
-  try {
-    changed_set(change);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { changed_set(change); });
 }
 
 TEST(ClaimsHistory, AChangeThatIsToldIsTaken) {
@@ -305,12 +300,7 @@ TEST(ClaimsHistory, NothingThatWasCommittedIsGoneOrAnother) {
 }
 
 std::string error_of_states(const std::string& folder) {
-  try {
-    committed_states(folder);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by<std::runtime_error>([&] { committed_states(folder); });
 }
 
 TEST(ClaimsHistory, ARepositoryThatCannotBeReadIsAnErrorAndNoneIsNot) {
