@@ -59,26 +59,18 @@ Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
 
 Json or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
 
-Json history_json(const Claim& claim) {
-  Json history = Json::array();
-  for (const ClaimChange& change : claim.history) {
-    Json set = Json::object();
-    for (const std::string& field : change.set) set[field] = field_json(change.definition, field);
-    history.push_back({{"date", change.date},
-                       {"commit", or_null(change.commit)},
-                       {"set", std::move(set)},
-                       {"came_out", or_null(change.came_out)},
-                       {"why", change.why}});
-  }
-  return history;
+Json entry_json(const ClaimChange& change) {
+  Json set = Json::object();
+  for (const std::string& field : change.set) set[field] = field_json(change.definition, field);
+  return {{"date", change.date},
+          {"commit", or_null(change.commit)},
+          {"set", std::move(set)},
+          {"came_out", or_null(change.came_out)},
+          {"why", change.why}};
 }
 
-Json judging_json() {
-  Json judging = Json::array();
-  for (const JudgingChange& change : claim_set().judging)
-    judging.push_back(
-        {{"date", change.date}, {"commit", or_null(change.commit)}, {"rule", change.rule}, {"why", change.why}});
-  return judging;
+Json judging_json(const JudgingChange& change) {
+  return {{"date", change.date}, {"commit", or_null(change.commit)}, {"rule", change.rule}, {"why", change.why}};
 }
 
 Json verdict_json(const ClaimVerdict& verdict) {
@@ -99,7 +91,7 @@ Json verdict_json(const ClaimVerdict& verdict) {
   json["measure_name"] = claim.measure;
   json["measure"] = std::move(measure);
   json["if_not"] = claim.if_not;
-  json["history"] = history_json(verdict.claim);
+  json["history"] = array_of(verdict.claim.history, entry_json);
   return json;
 }
 
@@ -213,14 +205,12 @@ std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& 
 }
 
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts) {
-  Json json = Json::array();
-  for (const ClaimVerdict& verdict : verdicts) json.push_back(verdict_json(verdict));
   return format_json({{"format", "glovebench-verdicts"},
                       {"version", 2},
                       {"required_claim_failed", count_required(verdicts).failed > 0},
                       {"required", required_json(count_required(verdicts))},
-                      {"judging", judging_json()},
-                      {"verdicts", std::move(json)}});
+                      {"judging", array_of(claim_set().judging, judging_json)},
+                      {"verdicts", array_of(verdicts, verdict_json)}});
 }
 
 }  // namespace glovebench::reports
