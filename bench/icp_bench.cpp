@@ -194,18 +194,11 @@ void convergence(benchmark::State& state, const char* algorithm) {
   }
   state.counters["converged"] = converged / static_cast<double>(data().frames.size());
 }
-BENCHMARK_CAPTURE(convergence, horn, "horn")
-    ->Name("icp/convergence/horn")
-    ->ArgName("deg")
-    ->DenseRange(5, 35, 10)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(convergence, robust, "robust")
-    ->Name("icp/convergence/robust")
-    ->ArgName("deg")
-    ->DenseRange(5, 35, 10)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+void set_angles(benchmark::internal::Benchmark* each) {
+  each->ArgName("deg")->DenseRange(5, 35, 10)->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(convergence, horn, "horn")->Name("icp/convergence/horn")->Apply(set_angles);
+BENCHMARK_CAPTURE(convergence, robust, "robust")->Name("icp/convergence/robust")->Apply(set_angles);
 
 void coarse(benchmark::State& state) {
   time_each(state, "frame", data().frames, [](const BenchFrame& frame) {

@@ -1,7 +1,7 @@
 // What the evaluator spends on a frame: the rendered images and the sensor's noise.
 
 #include "bench/bench_data.h"
-#include "render/label_renderer.h"
+#include "render/rgbd_renderer.h"
 
 namespace glovebench::bench {
 namespace {

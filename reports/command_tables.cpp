@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -12,12 +14,6 @@ using Json = nlohmann::ordered_json;
 void add_row(Table& table, const ExperimentKey& key, const Row& cells) {
   Row& row = table.rows.emplace_back(experiment_names(key));
   row.insert(row.end(), cells.begin(), cells.end());
-}
-
-int count_sent(const CommandResult& commands) {
-  int count = 0;
-  for (const int sent : commands.sent) count += sent;
-  return count;
 }
 
 /// The kinds that occurred in any experiment.
@@ -71,8 +67,8 @@ Table command_stream_table(const RunResult& result) {
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;
-    Row cells = {commands.frames, count_sent(commands), fixed(commands.rate_hz, 1),
-                 fixed(commands.longest_gap_ms, 0)};
+    Row cells = {commands.frames, std::accumulate(commands.sent.begin(), commands.sent.end(), 0),
+                 fixed(commands.rate_hz, 1), fixed(commands.longest_gap_ms, 0)};
     for (const int sent : commands.sent) cells.push_back(sent);
     add_row(table, experiment.key, cells);
   }

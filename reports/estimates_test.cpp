@@ -2,8 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"

@@ -10,7 +10,6 @@
 #include "core/base/text.h"
 #include "reports/commands.h"
 #include "reports/metrics/coverage.h"
-#include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
 #include "reports/study.h"

@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
-#include "core/base/file_set.h"
-#include "core/base/hash.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
