@@ -44,15 +44,12 @@ bool has_commands(const RunResult& result) {
 
 std::string command_explanation() {
   return "What the robot's hand and arm would have been sent: one command a frame, after the guard. A command "
-         "holds "
-         "while the hand is not tracked and stops after a while; an intervention is what the guard changed or "
-         "refused, or a pose that the arm could not reach. Errors are those of the commands that follow, against "
-         "the command that the truth would have given by the same mapping, arm and guard, also while the guard "
-         "still "
-         "slows them down on their way back to a hand that was lost: mean and, in brackets, 95th percentile; "
-         "joints and arm are the root mean square over their joints. Jerk is the root mean square "
-         "of the third derivative by time of commands that follow, in brackets of the truth's at the same times; "
-         "less "
+         "holds while the hand is not tracked and stops after a while; an intervention is what the guard changed "
+         "or refused, or a pose that the arm could not reach. Errors are those of the commands that follow, "
+         "against the command that the truth would have given by the same mapping, arm and guard, also while the "
+         "guard still slows them down on their way back to a hand that was lost: mean and, in brackets, 95th "
+         "percentile; joints and arm are the root mean square over their joints. Jerk is the root mean square of "
+         "the third derivative by time of commands that follow, in brackets of the truth's at the same times; less "
          "is smoother.";
 }
 
