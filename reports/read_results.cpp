@@ -299,8 +299,7 @@ RunResult read_results(const std::string& path) { return parse_results(read_file
 RunResult parse_results(const std::string& text, const std::string& where) {
   nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text(kResultsFormat);
-  json["version"].integer(kResultsVersion, kResultsVersion);
+  json.expect_format(kResultsFormat, kResultsVersion);
   const bool has_studies = json.has("studies");
   json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
                     "experiments", has_studies ? "studies" : "experiments"});
