@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/json_cursor.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"

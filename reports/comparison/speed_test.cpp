@@ -7,7 +7,7 @@
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
-#include "reports/comparison/pairing.h"
+#include "reports/results.h"
 #include "reports/test_text.h"
 
 namespace glovebench::reports {

@@ -7,6 +7,7 @@
 
 #include "core/base/math.h"
 #include "core/hand/skeleton.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/example_frame.h"
 
 namespace glovebench::reports {
