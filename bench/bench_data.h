@@ -89,6 +89,14 @@ inline constexpr const char* kMissing = "missing";
 /// Adds a counter: time per item.
 void set_time_each(benchmark::State& state, const std::string& name, size_t count);
 
+/// Times `run` on all items, and adds the time for one of them as counter `name`.
+template <typename Items, typename Run>
+void time_each(benchmark::State& state, const std::string& name, const Items& items, const Run& run) {
+  for (auto _ : state)
+    for (const auto& item : items) benchmark::DoNotOptimize(run(item));
+  set_time_each(state, name, items.size());
+}
+
 /// Minimum bytes per item.
 struct BytesTouched {
   double near = 0;  ///< in caches; `far`: in memory

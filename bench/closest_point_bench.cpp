@@ -132,9 +132,8 @@ struct Engine {
 void run_build(benchmark::State& state, const Engine& engine, int max_points) {
   if (engine.make == nullptr) return state.SkipWithError(kMissing);
   const std::vector<PointSequence> sequences = make_sequences(max_points);
-  for (auto _ : state)
-    for (const PointSequence& sequence : sequences) benchmark::DoNotOptimize(engine.make(sequence.surface));
-  set_time_each(state, "frame", sequences.size());
+  time_each(state, "frame", sequences,
+            [&](const PointSequence& sequence) { return engine.make(sequence.surface); });
 }
 
 /// All searches of an alignment, in a new structure.

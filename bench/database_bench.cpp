@@ -77,11 +77,12 @@ void run_tiny_images(benchmark::State& state, MakeTinyImage make) {
   set_time_each(state, "view", views.size());
 }
 
-void plain_tiny_images(benchmark::State& state) { run_tiny_images(state, make_tiny_image_plain); }
-BENCHMARK(plain_tiny_images)->Name("database/tiny_images/plain")->Unit(benchmark::kMillisecond);
-
-void fast_tiny_images(benchmark::State& state) { run_tiny_images(state, make_tiny_image); }
-BENCHMARK(fast_tiny_images)->Name("database/tiny_images/fast")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_tiny_images, plain, make_tiny_image_plain)
+    ->Name("database/tiny_images/plain")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_tiny_images, fast, make_tiny_image)
+    ->Name("database/tiny_images/fast")
+    ->Unit(benchmark::kMillisecond);
 
 using ChamferField = void (*)(const LabelImage&, uint8_t, uint8_t, std::span<uint8_t>);
 
@@ -109,17 +110,13 @@ void run_fields(benchmark::State& state, ChamferField chamfer) {
       return state.SkipWithError("the fast fields differ from the plain ones");
     }
   }
-  for (auto _ : state) {
-    for (const std::vector<LabelImage>& tiny : views) benchmark::DoNotOptimize(fields_of(tiny, chamfer));
-  }
-  set_time_each(state, "view", views.size());
+  time_each(state, "view", views, [&](const std::vector<LabelImage>& tiny) { return fields_of(tiny, chamfer); });
 }
 
-void plain_fields(benchmark::State& state) { run_fields(state, chamfer_field_plain); }
-BENCHMARK(plain_fields)->Name("database/fields/plain")->Unit(benchmark::kMillisecond);
-
-void fast_fields(benchmark::State& state) { run_fields(state, chamfer_field); }
-BENCHMARK(fast_fields)->Name("database/fields/fast")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_fields, plain, chamfer_field_plain)
+    ->Name("database/fields/plain")
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_fields, fast, chamfer_field)->Name("database/fields/fast")->Unit(benchmark::kMillisecond);
 
 /// The 756 views of one posture on one thread.
 void build(benchmark::State& state) {

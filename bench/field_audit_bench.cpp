@@ -92,7 +92,7 @@ void field_audit(benchmark::State& state) {
   state.counters["posture_deg"] = degrees_from_radians(std::sqrt(stored_error / count));
   state.counters["posture_deg_euclidean"] = degrees_from_radians(std::sqrt(euclidean_error / count));
 }
-BENCHMARK(field_audit)->Name("field_audit")->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(field_audit)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace glovebench::bench

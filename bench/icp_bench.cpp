@@ -83,10 +83,7 @@ void icp(benchmark::State& state, const char* algorithm, Implementation implemen
   const std::string name = fmt::format("{} {} {}", algorithm, static_cast<int>(implementation), max_points);
   const auto iterations = once(name, [&] { return iterations_like_plain(frames, config); });
   if (!iterations) return state.SkipWithError("the alignment differs from the plain one");
-  for (auto _ : state) {
-    for (const BenchFrame* frame : frames) benchmark::DoNotOptimize(align_frame(*frame, config));
-  }
-  set_time_each(state, "frame", frames.size());
+  time_each(state, "frame", frames, [&](const BenchFrame* frame) { return align_frame(*frame, config); });
   set_time_each(state, "iteration", static_cast<size_t>(*iterations));
   if (implementation == Implementation::fast)
     set_errors(state, mean_errors([&](const BenchFrame& frame) { return align_frame(frame, config); }));
@@ -97,15 +94,9 @@ BENCHMARK_CAPTURE(icp, plain, "horn", Implementation::plain, 1000)
 BENCHMARK_CAPTURE(icp, fast, "horn", Implementation::fast, 1000)
     ->Name("icp/horn/fast")
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, horn_3000, "horn", Implementation::fast, 3000)
-    ->Name("icp/horn_3000")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, robust, "robust", Implementation::fast, 1000)
-    ->Name("icp/robust")
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(icp, robust_3000, "robust", Implementation::fast, 3000)
-    ->Name("icp/robust_3000")
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(icp, horn_3000, "horn", Implementation::fast, 3000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(icp, robust, "robust", Implementation::fast, 1000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(icp, robust_3000, "robust", Implementation::fast, 3000)->Unit(benchmark::kMillisecond);
 
 /// With the same points, the same start and the same rule to stop as Horn's. Its pairs are others, since it knows
 /// no colors and no triangles: so is its answer, whose errors are shown, and which must be nearer than the start.
@@ -125,10 +116,7 @@ void icp_peer(benchmark::State& state, AlignPeer peer, int max_points) {
   const std::vector<const BenchFrame*> frames = some_frames();
   int iterations = 0;
   for (const BenchFrame* frame : frames) iterations += align_one(*frame).iterations;
-  for (auto _ : state) {
-    for (const BenchFrame* frame : frames) benchmark::DoNotOptimize(align_one(*frame));
-  }
-  set_time_each(state, "frame", frames.size());
+  time_each(state, "frame", frames, [&](const BenchFrame* frame) { return align_one(*frame); });
   set_time_each(state, "iteration", iterations);
   set_errors(state, errors);
 }
@@ -169,12 +157,7 @@ void robust_errors(benchmark::State& state) {
 BENCHMARK(robust_errors)
     ->Name("icp/errors/robust")
     ->ArgName("width_percent")
-    ->Arg(40)
-    ->Arg(50)
-    ->Arg(60)
-    ->Arg(70)
-    ->Arg(80)
-    ->Arg(100)
+    ->ArgsProduct({{40, 50, 60, 70, 80, 100}})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
@@ -211,37 +194,23 @@ void convergence(benchmark::State& state, const char* algorithm) {
   }
   state.counters["converged"] = converged / static_cast<double>(data().frames.size());
 }
-BENCHMARK_CAPTURE(convergence, horn, "horn")
-    ->Name("icp/convergence/horn")
-    ->ArgName("deg")
-    ->DenseRange(5, 35, 10)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(convergence, robust, "robust")
-    ->Name("icp/convergence/robust")
-    ->ArgName("deg")
-    ->DenseRange(5, 35, 10)
-    ->Iterations(1)
-    ->Unit(benchmark::kMillisecond);
+void set_angles(benchmark::internal::Benchmark* each) {
+  each->ArgName("deg")->DenseRange(5, 35, 10)->Iterations(1)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK_CAPTURE(convergence, horn, "horn")->Name("icp/convergence/horn")->Apply(set_angles);
+BENCHMARK_CAPTURE(convergence, robust, "robust")->Name("icp/convergence/robust")->Apply(set_angles);
 
 void coarse(benchmark::State& state) {
-  for (auto _ : state) {
-    for (const BenchFrame& frame : data().frames) {
-      benchmark::DoNotOptimize(coarse_pose(*data().model, frame.posed, frame.result.T_camera_hand_coarse.linear(),
-                                           frame.trace.cloud.points));
-    }
-  }
-  set_time_each(state, "frame", data().frames.size());
+  time_each(state, "frame", data().frames, [](const BenchFrame& frame) {
+    return coarse_pose(*data().model, frame.posed, frame.result.T_camera_hand_coarse.linear(),
+                       frame.trace.cloud.points);
+  });
 }
 BENCHMARK(coarse)->Name("icp/coarse_pose")->Unit(benchmark::kMillisecond);
 
 void pose(benchmark::State& state) {
-  for (auto _ : state) {
-    for (const BenchFrame& frame : data().frames) {
-      benchmark::DoNotOptimize(data().model->pose(frame.result.posture_unfiltered));
-    }
-  }
-  set_time_each(state, "frame", data().frames.size());
+  time_each(state, "frame", data().frames,
+            [](const BenchFrame& frame) { return data().model->pose(frame.result.posture_unfiltered); });
 }
 BENCHMARK(pose)->Name("icp/pose_hand")->Unit(benchmark::kMillisecond);
 

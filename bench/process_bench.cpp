@@ -24,9 +24,7 @@ void round_trip(benchmark::State& state) {
   for (const BenchFrame& frame : d.frames)  // also starts the program
     if (method->track(frame.device).status != TrackStatus::no_hand)
       return state.SkipWithError("an answer is missing");
-  for (auto _ : state)
-    for (const BenchFrame& frame : d.frames) benchmark::DoNotOptimize(method->track(frame.device));
-  set_time_each(state, "frame", d.frames.size());
+  time_each(state, "frame", d.frames, [&](const BenchFrame& frame) { return method->track(frame.device); });
 }
 BENCHMARK(round_trip)->Name("process/round_trip")->Unit(benchmark::kMillisecond)->UseRealTime();
 

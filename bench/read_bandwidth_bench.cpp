@@ -53,12 +53,9 @@ void read_bandwidth(benchmark::State& state, BytesTouched touched) {
       static_cast<double>(bytes), benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
 }
 
-const int bandwidth_registered = [] {
-  // What fits a core's own cache, and what is about the rows of a look-up or the frames here.
-  benchmark::RegisterBenchmark(kNearBandwidth.c_str(), read_bandwidth, BytesTouched{.near = 256 << 10});
-  benchmark::RegisterBenchmark(kFarBandwidth.c_str(), read_bandwidth, BytesTouched{.far = 64 << 20});
-  return 0;
-}();
+// What fits a core's own cache, and what is about the rows of a look-up or the frames here.
+BENCHMARK_CAPTURE(read_bandwidth, near, BytesTouched{.near = 256 << 10})->Name(kNearBandwidth);
+BENCHMARK_CAPTURE(read_bandwidth, far, BytesTouched{.far = 64 << 20})->Name(kFarBandwidth);
 
 }  // namespace
 }  // namespace glovebench::bench

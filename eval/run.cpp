@@ -14,8 +14,8 @@
 #include "eval/run_bytes.h"
 #include "eval/terminal.h"
 #include "eval/threads.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/measure_frame.h"
-#include "reports/metrics/visibility.h"
 
 namespace glovebench::eval {
 namespace {

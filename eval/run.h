@@ -44,7 +44,7 @@ struct RunSpec {
 struct Sight {
   std::array<int, kPatchCount> visible_pixels{};  ///< by patch, IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
-  double visible_percent = 0;                     ///< see reports/metrics/visibility.h
+  double visible_percent = 0;                     ///< see reports/metrics/coverage.h
 };
 
 /// Results by frame that the tracker got.

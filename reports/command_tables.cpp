@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -12,12 +14,6 @@ using Json = nlohmann::ordered_json;
 void add_row(Table& table, const ExperimentKey& key, const Row& cells) {
   Row& row = table.rows.emplace_back(experiment_names(key));
   row.insert(row.end(), cells.begin(), cells.end());
-}
-
-int count_sent(const CommandResult& commands) {
-  int count = 0;
-  for (const int sent : commands.sent) count += sent;
-  return count;
 }
 
 /// The kinds that occurred in any experiment.
@@ -48,15 +44,12 @@ bool has_commands(const RunResult& result) {
 
 std::string command_explanation() {
   return "What the robot's hand and arm would have been sent: one command a frame, after the guard. A command "
-         "holds "
-         "while the hand is not tracked and stops after a while; an intervention is what the guard changed or "
-         "refused, or a pose that the arm could not reach. Errors are those of the commands that follow, against "
-         "the command that the truth would have given by the same mapping, arm and guard, also while the guard "
-         "still "
-         "slows them down on their way back to a hand that was lost: mean and, in brackets, 95th percentile; "
-         "joints and arm are the root mean square over their joints. Jerk is the root mean square "
-         "of the third derivative by time of commands that follow, in brackets of the truth's at the same times; "
-         "less "
+         "holds while the hand is not tracked and stops after a while; an intervention is what the guard changed "
+         "or refused, or a pose that the arm could not reach. Errors are those of the commands that follow, "
+         "against the command that the truth would have given by the same mapping, arm and guard, also while the "
+         "guard still slows them down on their way back to a hand that was lost: mean and, in brackets, 95th "
+         "percentile; joints and arm are the root mean square over their joints. Jerk is the root mean square of "
+         "the third derivative by time of commands that follow, in brackets of the truth's at the same times; less "
          "is smoother.";
 }
 
@@ -71,8 +64,8 @@ Table command_stream_table(const RunResult& result) {
   for (const ExperimentResult& experiment : result.experiments) {
     if (!experiment.commands) continue;
     const CommandResult& commands = *experiment.commands;
-    Row cells = {commands.frames, count_sent(commands), fixed(commands.rate_hz, 1),
-                 fixed(commands.longest_gap_ms, 0)};
+    Row cells = {commands.frames, std::accumulate(commands.sent.begin(), commands.sent.end(), 0),
+                 fixed(commands.rate_hz, 1), fixed(commands.longest_gap_ms, 0)};
     for (const int sent : commands.sent) cells.push_back(sent);
     add_row(table, experiment.key, cells);
   }

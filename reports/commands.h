@@ -3,10 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/json_cursor.h"
 #include "core/robot/command_state.h"

@@ -9,7 +9,6 @@
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
-#include "core/base/json_cursor.h"
 #include "core/base/math.h"
 #include "core/hand/posture.h"
 #include "reports/text.h"

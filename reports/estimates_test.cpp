@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include <algorithm>
-
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -33,12 +32,7 @@ ExperimentEstimates example_estimates() {
 }
 
 std::string estimates_error(const std::string& text) {
-  try {
-    parse_estimates(text, "e.csv");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { parse_estimates(text, "e.csv"); });
 }
 
 /// Replaces the first occurrence.

@@ -9,22 +9,22 @@
 namespace glovebench::reports {
 
 inline StudyResult example_figure7() {
-  Table table;
-  table.name = "figure7";
-  table.title = "Tiny images: time of one distance, and rank of the true neighbor";
-  table.explanation = "Rank 1 is the first. The plain implementation follows the paper.";
-  table.name_columns = 2;
-  table.columns = {{"implementation", "implementation", 0},
-                   {"size_px", "size px", 0},
-                   {"queries", "queries", 0},
-                   {"mean_rank", "mean rank", 2},
-                   {"mean_rank_low", "low", 2},
-                   {"mean_rank_high", "high", 2},
-                   {"median_rank", "median rank", 1},
-                   {"first_percent", "first %", 1},
-                   {"in_first_500_percent", "in first 500 %", 1},
-                   {"distance_us", "distance us", 3, true},
-                   {"distance_us_p95", "distance us, p95", 3, true}};
+  Table table = {"figure7",
+                 "Tiny images: time of one distance, and rank of the true neighbor",
+                 "Rank 1 is the first. The plain implementation follows the paper.",
+                 {{"implementation", "implementation", 0},
+                  {"size_px", "size px", 0},
+                  {"queries", "queries", 0},
+                  {"mean_rank", "mean rank", 2},
+                  {"mean_rank_low", "low", 2},
+                  {"mean_rank_high", "high", 2},
+                  {"median_rank", "median rank", 1},
+                  {"first_percent", "first %", 1},
+                  {"in_first_500_percent", "in first 500 %", 1},
+                  {"distance_us", "distance us", 3, true},
+                  {"distance_us_p95", "distance us, p95", 3, true}},
+                 2,
+                 {}};
   for (const std::string implementation : {"plain", "fast"}) {
     for (const int64_t size : {8, 16, 32, 64}) {
       const double rank = 1 + 4000.0 / static_cast<double>(size * size);
@@ -41,30 +41,30 @@ inline StudyResult example_figure7() {
 }
 
 inline StudyResult example_figure8() {
-  Table table;
-  table.name = "figure8";
-  table.title = "Matching cascades";
-  table.explanation = "Mean errors over all trajectories of the database; times of one frame, one thread.";
-  table.name_columns = 4;
-  table.columns = {{"database", "database", 0},
-                   {"cascade", "cascade", 0},
-                   {"implementation", "implementation", 0},
-                   {"truth", "truth", 0},
-                   {"frames", "frames", 0},
-                   {"posture_error_deg", "posture deg", 2},
-                   {"posture_error_deg_low", "low", 2},
-                   {"posture_error_deg_high", "high", 2},
-                   {"position_error_mm", "position mm", 2},
-                   {"rotation_error_deg", "rotation deg", 2},
-                   {"true_neighbor_survives_percent", "true neighbor survives %", 1},
-                   {"look_up_ms_p50", "look-up ms, p50", 2, true},
-                   {"look_up_ms_p95", "p95", 2, true},
-                   {"look_up_ms_p99", "p99", 2, true},
-                   {"frame_ms_p50", "frame ms, p50", 2, true},
-                   {"frame_ms_p95", "p95", 2, true},
-                   {"frame_ms_p99", "p99", 2, true},
-                   {"paper_posture_error_deg", "paper posture deg", 2},
-                   {"paper_time_ms", "paper ms", 1}};
+  Table table = {"figure8",
+                 "Matching cascades",
+                 "Mean errors over all trajectories of the database; times of one frame, one thread.",
+                 {{"database", "database", 0},
+                  {"cascade", "cascade", 0},
+                  {"implementation", "implementation", 0},
+                  {"truth", "truth", 0},
+                  {"frames", "frames", 0},
+                  {"posture_error_deg", "posture deg", 2},
+                  {"posture_error_deg_low", "low", 2},
+                  {"posture_error_deg_high", "high", 2},
+                  {"position_error_mm", "position mm", 2},
+                  {"rotation_error_deg", "rotation deg", 2},
+                  {"true_neighbor_survives_percent", "true neighbor survives %", 1},
+                  {"look_up_ms_p50", "look-up ms, p50", 2, true},
+                  {"look_up_ms_p95", "p95", 2, true},
+                  {"look_up_ms_p99", "p99", 2, true},
+                  {"frame_ms_p50", "frame ms, p50", 2, true},
+                  {"frame_ms_p95", "p95", 2, true},
+                  {"frame_ms_p99", "p99", 2, true},
+                  {"paper_posture_error_deg", "paper posture deg", 2},
+                  {"paper_time_ms", "paper ms", 1}},
+                 4,
+                 {}};
   for (const std::string implementation : {"plain", "fast"}) {
     for (const PaperCascade& paper : paper_numbers().figure_8) {
       const double posture = paper.posture_error_deg * 0.8 + 1.0 / 3;

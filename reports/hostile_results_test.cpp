@@ -5,12 +5,12 @@
 #include <filesystem>
 
 #include "core/base/error.h"
-#include "core/base/json_cursor.h"
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/example_result.h"
 #include "reports/results_json.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -30,13 +30,9 @@ const std::string& example_text() {
 }
 
 std::string hostile_error(const std::string& text) {
-  try {
-    parse_results(text, "results.json");
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.what();
-  }
-  return "no error";
+  const std::string error = thrown_by([&] { parse_results(text, "results.json"); });
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  return error;
 }
 
 std::string hostile_error_of_change(const std::function<void(json&)>& change) {
@@ -49,12 +45,7 @@ std::string hostile_error_of_change(const std::function<void(json&)>& change) {
 json& first_frame(json& results) { return results["experiments"][0]["runs"][0]["frames"][0]; }
 
 std::string error_of_reading(const std::string& path) {
-  try {
-    read_results(path);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { read_results(path); });
 }
 
 TEST(HostileResults, NestedAMillionDeep) {

@@ -1,5 +1,7 @@
 #include "reports/paper_numbers.h"
 
+#include <array>
+
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
 #include "reports/embedded.h"
@@ -54,8 +56,7 @@ const PaperNumbers& paper_numbers() {
 PaperNumbers parse_paper_numbers(const std::string& text, const std::string& where) {
   const nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text("glovebench-paper-numbers");
-  json["version"].integer(1, 1);
+  json.expect_format("glovebench-paper-numbers", 1);
   json.expect_keys({"format", "version", "source", "figure_5", "figure_6", "figure_8", "text_claims"});
   const JsonCursor claims = json["text_claims"];
   claims.expect_keys({"rate_hz", "rate_hardware", "mean_position_error_below_mm"});

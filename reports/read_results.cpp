@@ -10,7 +10,6 @@
 #include "core/base/text.h"
 #include "reports/commands.h"
 #include "reports/metrics/coverage.h"
-#include "reports/metrics/measure_frame.h"
 #include "reports/results_json.h"
 #include "reports/statistics.h"
 #include "reports/study.h"
@@ -300,8 +299,7 @@ RunResult read_results(const std::string& path) { return parse_results(read_file
 RunResult parse_results(const std::string& text, const std::string& where) {
   nlohmann::json document = parse_json(text, where);
   const JsonCursor json(document, where);
-  json["format"].expect_text(kResultsFormat);
-  json["version"].integer(kResultsVersion, kResultsVersion);
+  json.expect_format(kResultsFormat, kResultsVersion);
   const bool has_studies = json.has("studies");
   json.expect_keys({"format", "version", "protocol", "inputs", "suite", "program", "configuration", "frame_columns",
                     "experiments", has_studies ? "studies" : "experiments"});

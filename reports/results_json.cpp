@@ -39,20 +39,16 @@ Json coverage_json(const Coverage& coverage, bool has_levels) {
 }
 
 Json pck_json(const PckCurve& pck) {
-  Json thresholds = Json::array(), shares = Json::array();
-  for (const double threshold : pck.thresholds_mm) thresholds.push_back(rounded(threshold));
-  for (const double share : pck.shares) shares.push_back(rounded(share));
-  return {{"thresholds_mm", thresholds}, {"shares", shares}, {"area", rounded_or_null(pck.area)}};
+  return {{"thresholds_mm", array_of(pck.thresholds_mm, rounded)},
+          {"shares", array_of(pck.shares, rounded)},
+          {"area", rounded_or_null(pck.area)}};
 }
 
 Json runs_json(const std::vector<SeedRun>& runs, std::span<const std::string> metric_keys) {
-  Json json = Json::array();
-  for (const SeedRun& run : runs) {
-    Json frames = Json::array();
-    for (const FrameRecord& frame : run.frames) frames.push_back(frame_row(frame, metric_keys));
-    json.push_back({{"seed", run.seed}, {"frames", std::move(frames)}});
-  }
-  return json;
+  const auto row = [&](const FrameRecord& frame) { return frame_row(frame, metric_keys); };
+  return array_of(runs, [&](const SeedRun& run) -> Json {
+    return {{"seed", run.seed}, {"frames", array_of(run.frames, row)}};
+  });
 }
 
 Json experiment_json(const ExperimentResult& experiment, const Protocol& protocol) {
@@ -100,9 +96,7 @@ Json frame_row(const FrameRecord& frame, std::span<const std::string> metric_key
 std::string results_json(const RunResult& result) {
   Protocol protocol = result.protocol;
   std::erase_if(protocol.metric_keys, [](const std::string& key) { return !find_frame_metric(key); });
-  Json experiments = Json::array();
-  for (const ExperimentResult& experiment : result.experiments)
-    experiments.push_back(experiment_json(experiment, protocol));
+  const auto to_json = [&](const ExperimentResult& experiment) { return experiment_json(experiment, protocol); };
   Json json = {{"format", kResultsFormat},
                {"version", kResultsVersion},
                {"protocol",
@@ -120,7 +114,7 @@ std::string results_json(const RunResult& result) {
                {"program", {{"version", result.program_version}, {"commit", result.commit}}},
                {"configuration", result.configuration},
                {"frame_columns", frame_columns(protocol.metric_keys)},
-               {"experiments", std::move(experiments)}};
+               {"experiments", array_of(result.experiments, to_json)}};
   // Left out if empty, so older results and those without studies keep their bytes.
   if (!protocol.coverage_rules.empty()) json["protocol"]["coverage_rules"] = protocol.coverage_rules;
   if (!result.studies.empty()) json["studies"] = studies_json(result.studies);

@@ -11,6 +11,7 @@
 #include "core/test_folder.h"
 #include "reports/commands.h"
 #include "reports/example_result.h"
+#include "reports/test_text.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -20,14 +21,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// The message of the Error.
 std::string error_of(const std::string& text) {
-  try {
-    parse_results(text, "results.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { parse_results(text, "results.json"); });
 }
 
 std::string error_of_change(const std::function<void(json&)>& change) {
@@ -173,12 +168,8 @@ TEST(ResultsJson, SharesThatWereCountedByOtherRulesAreNotComparable) {
   json results = json::parse(results_json(small_result()));
   results["protocol"]["coverage_rules"]["usable_position_mm"] = 12;
   renew_protocol_id(results["protocol"]);
-  try {
-    parse_results(results.dump(), "results.json");
-    FAIL() << "other rules were read";
-  } catch (const Incomparable& error) {
-    EXPECT_STREQ(error.what(), "results.json: protocol.coverage_rules.usable_position_mm: found 12, expected 10");
-  }
+  EXPECT_EQ(thrown_by<Incomparable>([&] { parse_results(results.dump(), "results.json"); }),
+            "results.json: protocol.coverage_rules.usable_position_mm: found 12, expected 10");
   EXPECT_THAT(error_of_change([](json& r) { r["protocol"]["coverage_rules"]["mood"] = 1; }),
               HasSubstr("coverage_rules.mood: found 1, expected a rule that this program knows"));
   EXPECT_THAT(error_of_change([](json& r) { r["experiments"][0]["coverage"]["usable"] = 2; }),

@@ -91,6 +91,28 @@ double share_within(double t, int degrees_of_freedom) {
   return is_odd ? (angle + std::sin(angle) * sum) * 2 / std::numbers::pi : std::sin(angle) * sum;
 }
 
+void check_config(const BootstrapConfig& config) {
+  check(config.block_frames >= 1 && config.resamples >= 1 && config.level > 0 && config.level < 1,
+        "a bootstrap has blocks, resamples and a level between 0 and 1");
+}
+
+/// Of the values of all draws; empty without values. `where`: "of this movement".
+std::optional<ConfidenceInterval> interval_of_draws(std::vector<double> values, const BootstrapConfig& config,
+                                                    int seeds, int blocks, const std::string& where) {
+  if (values.empty()) return std::nullopt;
+  std::ranges::sort(values);
+  ConfidenceInterval interval;
+  interval.low = sorted_percentile(values, (1 - config.level) / 2);
+  interval.high = sorted_percentile(values, (1 + config.level) / 2);
+  interval.level = config.level;
+  interval.seeds = seeds;
+  interval.blocks = blocks;
+  interval.block_frames = config.block_frames;
+  interval.over =
+      seeds > 1 ? "noise seeds and blocks of frames " + where : "blocks of frames " + where + ", one noise seed";
+  return interval;
+}
+
 }  // namespace
 
 std::optional<double> mean(std::span<const double> values) {
@@ -142,8 +164,7 @@ PckCurve pck_curve(std::span<const double> errors_mm, size_t keypoint_count) {
 
 std::optional<ConfidenceInterval> confidence_interval(
     const std::vector<std::vector<std::optional<double>>>& values_by_seed, const BootstrapConfig& config) {
-  check(config.block_frames >= 1 && config.resamples >= 1 && config.level > 0 && config.level < 1,
-        "a bootstrap has blocks, resamples and a level between 0 and 1");
+  check_config(config);
   std::vector<std::vector<BlockSum>> sums;
   for (const auto& values : values_by_seed) {
     check(values.size() == values_by_seed.front().size(), "all seeds replay the same frames");
@@ -155,35 +176,21 @@ std::optional<ConfidenceInterval> confidence_interval(
   std::vector<double> means;
   for (int i = 0; i < config.resamples; ++i)
     if (const auto resampled = resampled_mean(sums, random)) means.push_back(*resampled);
-  if (means.empty()) return std::nullopt;
-  std::ranges::sort(means);
-
-  ConfidenceInterval interval;
-  interval.low = sorted_percentile(means, (1 - config.level) / 2);
-  interval.high = sorted_percentile(means, (1 + config.level) / 2);
-  interval.level = config.level;
-  interval.seeds = static_cast<int>(sums.size());
-  interval.blocks = static_cast<int>(sums.front().size());
-  interval.block_frames = config.block_frames;
-  interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of this movement"
-                                     : "blocks of frames of this movement, one noise seed";
-  return interval;
+  return interval_of_draws(std::move(means), config, static_cast<int>(sums.size()),
+                           static_cast<int>(sums.front().size()), "of this movement");
 }
 
 std::optional<ConfidenceInterval> stratified_interval(
     std::span<const StratumShape> strata,
     const std::function<std::optional<double>(std::span<const Draw>)>& statistic, const BootstrapConfig& config) {
-  check(config.block_frames >= 1 && config.resamples >= 1 && config.level > 0 && config.level < 1,
-        "a bootstrap has blocks, resamples and a level between 0 and 1");
-  ConfidenceInterval interval;
-  interval.level = config.level;
-  interval.block_frames = config.block_frames;
+  check_config(config);
+  int seeds = 0, blocks = 0;
   for (const StratumShape& stratum : strata) {
-    interval.seeds = std::max(interval.seeds, stratum.seeds);
-    interval.blocks += block_count(stratum, config.block_frames);
+    seeds = std::max(seeds, stratum.seeds);
+    blocks += block_count(stratum, config.block_frames);
   }
   constexpr int kFewestBlocks = 5;  // fewer blocks give too few different draws
-  if (interval.blocks < kFewestBlocks) return std::nullopt;
+  if (blocks < kFewestBlocks) return std::nullopt;
 
   RandomStream random(config.seed, "stratified_interval", 0, "bootstrap");
   std::vector<double> values;
@@ -192,14 +199,8 @@ std::optional<ConfidenceInterval> stratified_interval(
     for (size_t s = 0; s < strata.size(); ++s) draws[s] = draw(strata[s], config.block_frames, random);
     if (const auto value = statistic(draws)) values.push_back(*value);
   }
-  if (values.empty()) return std::nullopt;
   check_finite(values);
-  std::ranges::sort(values);
-  interval.low = sorted_percentile(values, (1 - config.level) / 2);
-  interval.high = sorted_percentile(values, (1 + config.level) / 2);
-  interval.over = interval.seeds > 1 ? "noise seeds and blocks of frames of these movements"
-                                     : "blocks of frames of these movements, one noise seed";
-  return interval;
+  return interval_of_draws(std::move(values), config, seeds, blocks, "of these movements");
 }
 
 double student_quantile(double level, int degrees_of_freedom) {

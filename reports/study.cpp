@@ -43,11 +43,7 @@ Json table_json(const Table& table, bool of_times) {
     columns.push_back({{"key", column.key}, {"heading", column.heading}, {"digits", column.digits}});
     indices.push_back(c);
   }
-  for (const auto& row : table.rows) {
-    Json cells = Json::array();
-    for (const size_t c : indices) cells.push_back(cell_json(row[c]));
-    rows.push_back(std::move(cells));
-  }
+  for (const Row& row : table.rows) rows.push_back(array_of(indices, [&](size_t c) { return cell_json(row[c]); }));
   return {{"name", table.name},
           {"title", table.title},
           {"explanation", table.explanation},
@@ -66,15 +62,6 @@ Json measures_json(const std::vector<Measure>& measures, bool of_times) {
                     {"interval", interval_json(measure.interval)}});
   }
   return json;
-}
-
-Json study_json(const StudyResult& study, const std::vector<const Table*>& tables, bool of_times) {
-  Json json = Json::array();
-  for (const Table* table : tables) json.push_back(table_json(*table, of_times));
-  return {{"name", study.name},
-          {"title", study.title},
-          {"tables", std::move(json)},
-          {"measures", measures_json(study.measures, of_times)}};
 }
 
 std::string read_key(const JsonCursor& json, bool is_measure = false) {
@@ -159,7 +146,23 @@ void check_table(const Table& table) {
   for (const auto& row : table.rows) check(row.size() == table.columns.size(), "a row has one cell a column");
 }
 
-bool has_times(const Table& table) { return std::ranges::any_of(table.columns, &Column::is_time); }
+/// Without times, or only the tables and measures that have some.
+Json studies_json(const std::vector<StudyResult>& studies, bool of_times) {
+  check_studies(studies);
+  Json json = Json::array();
+  for (const StudyResult& study : studies) {
+    Json tables = Json::array(), measures = measures_json(study.measures, of_times);
+    for (const Table& table : study.tables)
+      if (!of_times || std::ranges::any_of(table.columns, &Column::is_time))
+        tables.push_back(table_json(table, of_times));
+    if (of_times && tables.empty() && measures.empty()) continue;
+    json.push_back({{"name", study.name},
+                    {"title", study.title},
+                    {"tables", std::move(tables)},
+                    {"measures", std::move(measures)}});
+  }
+  return json;
+}
 
 }  // namespace
 
@@ -192,29 +195,9 @@ void check_studies(const std::vector<StudyResult>& studies) {
   }
 }
 
-Json studies_json(const std::vector<StudyResult>& studies) {
-  check_studies(studies);
-  Json json = Json::array();
-  for (const StudyResult& study : studies) {
-    std::vector<const Table*> tables;
-    for (const Table& table : study.tables) tables.push_back(&table);
-    json.push_back(study_json(study, tables, false));
-  }
-  return json;
-}
+Json studies_json(const std::vector<StudyResult>& studies) { return studies_json(studies, false); }
 
-Json study_times_json(const std::vector<StudyResult>& studies) {
-  check_studies(studies);
-  Json json = Json::array();
-  for (const StudyResult& study : studies) {
-    std::vector<const Table*> tables;
-    for (const Table& table : study.tables)
-      if (has_times(table)) tables.push_back(&table);
-    if (!tables.empty() || std::ranges::any_of(study.measures, &Measure::is_time))
-      json.push_back(study_json(study, tables, true));
-  }
-  return json;
-}
+Json study_times_json(const std::vector<StudyResult>& studies) { return studies_json(studies, true); }
 
 std::vector<StudyResult> read_studies(const JsonCursor& json) {
   std::vector<StudyResult> studies;

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "core/base/error.h"
 #include "reports/example_studies.h"
+#include "reports/test_text.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -35,23 +35,13 @@ std::vector<StudyResult> read(const json& document) {
 std::string study_error(const std::function<void(json&)>& change) {
   json document = written(small_study());
   change(document);
-  try {
-    read(document);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { read(document); });
 }
 /// True if writers refuse a study after this change.
 bool is_refused(const std::function<void(StudyResult&)>& change) {
   std::vector<StudyResult> studies = {small_study()};
   change(studies[0]);
-  try {
-    check_studies(studies);
-    return false;
-  } catch (const std::logic_error&) {
-    return true;
-  }
+  return thrown_by<std::logic_error>([&] { check_studies(studies); }) != "no error";
 }
 
 TEST(StudyJson, ResultsHoldWhatIsNoTime) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <span>
 
 #include "reports/claims/claims_report.h"
@@ -154,8 +153,7 @@ std::string figure5_note(const RunResult& result, const PaperNumbers& paper) {
 std::string quick_note(const RunResult& result) {
   if (!result.configuration.value("quick", false)) return "";
   return "A quick run: a few frames and queries of everything, to see that it runs. Nothing can be concluded from "
-         "its "
-         "numbers, and no claim is judged.";
+         "its numbers, and no claim is judged.";
 }
 
 std::string summary_markdown(const RunResult& result, const PaperNumbers& paper,

@@ -2,22 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include <sstream>
-
 #include "reports/example_result.h"
 #include "reports/summary.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
 
 using testing::HasSubstr;
-
-std::vector<std::string> lines_of_table(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 TEST(Figure4Table, Golden) {
   EXPECT_EQ(figure4_table(small_result(), paper_numbers(), {}), R"(
@@ -34,14 +26,14 @@ Tr1  20_postures     |     -      -      -     -|     -      -      -     -|    
 TEST(Figure4Table, FitsA120ColumnTerminal) {
   RunResult result = full_result();
   result.experiments[0].aggregates[metric_index("position_error_mm")].mean = 12345.678;
-  for (const std::string& line : lines_of_table(figure4_table(result, paper_numbers(), {})))
+  for (const std::string& line : lines_of(figure4_table(result, paper_numbers(), {})))
     EXPECT_LE(line.size(), 120u) << line;
 }
 
 TEST(Figure4Table, BreaksIntoBlocksOnANarrowTerminal) {
   const std::string table = figure4_table(full_result(), paper_numbers(), {}, 80);
   size_t names = 0;
-  for (const std::string& line : lines_of_table(table)) {
+  for (const std::string& line : lines_of(table)) {
     EXPECT_LE(line.size(), 80u) << line;
     names += line.starts_with("Tr4");
   }
@@ -99,7 +91,7 @@ TEST(Figure4Latex, HasThePapersNumbers) {
 }
 
 TEST(Figure4Csv, OneLineAnExperiment) {
-  const std::vector<std::string> lines = lines_of_table(figure4_csv(small_result(), paper_numbers(), {}));
+  const std::vector<std::string> lines = lines_of(figure4_csv(small_result(), paper_numbers(), {}));
   ASSERT_EQ(lines.size(), 4u);
   EXPECT_EQ(lines[0],
             "run,experiment,trajectory,database,truth,subject,noise,noise_factor,seeds,frames,coverage,"
@@ -133,7 +125,7 @@ RunResult own_result() {
 
 TEST(Metrics, HaveATableWithTheirKeys) {
   const RunResult result = small_result();
-  const std::vector<std::string> lines = lines_of_table(metrics_csv(result));
+  const std::vector<std::string> lines = lines_of(metrics_csv(result));
   ASSERT_EQ(lines.size(), 1 + result.experiments.size());
   const Table shown = detail_summary(result);
   for (size_t c = static_cast<size_t>(shown.name_columns) + 1; c < shown.columns.size(); ++c)
@@ -154,7 +146,7 @@ TEST(Errors, OfOnesOwnRunHaveNoNumbersOfThePaper) {
   other_hand.experiments.front().key.subject = 5;
   EXPECT_FALSE(is_figure4(other_hand));
   EXPECT_FALSE(is_figure4({}));
-  const std::vector<std::string> lines = lines_of_table(errors_csv(own_result()));
+  const std::vector<std::string> lines = lines_of(errors_csv(own_result()));
   ASSERT_EQ(lines.size(), 5u) << "of any noise";
   EXPECT_THAT(lines[0], testing::Not(HasSubstr("paper")));
   EXPECT_THAT(lines[1],
@@ -183,7 +175,7 @@ trajectory  pos. mm  post. deg  rot. deg  tips mm  vert. mm  found %  usable %
 wave           4.00       3.00      2.00     6.00      5.00     75.0      75.0
 )" + 1);
   for (const RunResult& each : {own_result(), full_result()})
-    for (const std::string& line : lines_of_table(headline_text(each, 80))) EXPECT_LE(line.size(), 80u) << line;
+    for (const std::string& line : lines_of(headline_text(each, 80))) EXPECT_LE(line.size(), 80u) << line;
   EXPECT_THAT(headline_text(own_result(), 80), HasSubstr("\nTr1, DB_20_postures, source, gradient x 1\n"));
 }
 
@@ -203,7 +195,7 @@ TEST(RunName, DiffersWithAnythingThatChangesTheResults) {
 }
 
 TEST(FramesCsv, LostFramesHaveEmptyCells) {
-  const std::vector<std::string> lines = lines_of_table(frames_csv("a-1", small_result().experiments[0]));
+  const std::vector<std::string> lines = lines_of(frames_csv("a-1", small_result().experiments[0]));
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_THAT(lines[0], testing::StartsWith("run,experiment,seed,frame,timestamp_us,status,covered,"));
   EXPECT_THAT(lines[1], testing::StartsWith("a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,1,0,0,tracked,true,"
@@ -221,7 +213,7 @@ TEST(FramesCsv, LostFramesHaveEmptyCells) {
 TEST(CurveCsv, StandsBesideThePapersCurve) {
   PaperCurve paper = paper_numbers().figure_5;
   paper.frames.resize(1);
-  const std::vector<std::string> lines = lines_of_table(curve_csv("a-1", small_result().experiments[0], paper));
+  const std::vector<std::string> lines = lines_of(curve_csv("a-1", small_result().experiments[0], paper));
   ASSERT_EQ(lines.size(), 5u);
   const std::string names = "a-1,Tr4_DB_open_power_recorded_subject1_gradient_1,";
   EXPECT_EQ(lines[1], names + "1,0,0,tracked,3.0,2.0,1.0,3.48071,1.47e-13,4.35094");

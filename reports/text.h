@@ -38,6 +38,13 @@ std::string format_json(const nlohmann::ordered_json& json);
 double rounded(double value);
 nlohmann::ordered_json rounded_or_null(const std::optional<double>& value);
 
+template <typename Items, typename ToJson>
+nlohmann::ordered_json array_of(const Items& items, const ToJson& to_json) {
+  nlohmann::ordered_json array = nlohmann::ordered_json::array();
+  for (const auto& item : items) array.push_back(to_json(item));
+  return array;
+}
+
 /// Replaces bytes that are not UTF-8 by U+FFFD.
 std::string valid_utf8(const std::string& text);
 

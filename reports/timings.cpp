@@ -17,7 +17,7 @@ Json times_json(const std::vector<double>& ms) {
           {"max_ms", rounded_or_null(a.max)}};
 }
 
-Json experiment_json(const ExperimentTiming& timing) {
+Json timing_json(const ExperimentTiming& timing) {
   Json stages = Json::object();
   for (const StageTiming& stage : timing.stages) stages[stage.stage] = times_json(stage.frame_ms);
   Json json = {
@@ -32,8 +32,6 @@ Json experiment_json(const ExperimentTiming& timing) {
 }  // namespace
 
 std::string timings_json(const Timings& timings, const std::vector<StudyResult>& studies) {
-  Json experiments = Json::array();
-  for (const ExperimentTiming& timing : timings.experiments) experiments.push_back(experiment_json(timing));
   Json json = {{"format", "glovebench-timings"},
                {"version", 1},
                {"host", timings.host},
@@ -45,7 +43,7 @@ std::string timings_json(const Timings& timings, const std::vector<StudyResult>&
                {"date", timings.date},
                {"wall_s", rounded(timings.wall_s)},
                {"peak_memory_mb", rounded_or_null(timings.peak_memory_mb)},
-               {"experiments", std::move(experiments)}};
+               {"experiments", array_of(timings.experiments, timing_json)}};
   if (Json times = study_times_json(studies); !times.empty()) json["studies"] = std::move(times);
   return format_json(json);
 }

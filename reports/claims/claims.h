@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -84,13 +85,11 @@ struct JudgingChange {
 struct ClaimSet {
   std::vector<Claim> claims;
   std::vector<JudgingChange> judging;
-
-  friend bool operator==(const ClaimSet&, const ClaimSet&) = default;
 };
 
-/// A field of claims.json as text: "below 10", "true".
+/// A field of claims.json, but a rule in words: "below 10".
 /// Throws: std::logic_error for another field.
-std::string field_text(const ClaimDefinition& definition, std::string_view field);
+nlohmann::ordered_json field_json(const ClaimDefinition& definition, std::string_view field);
 /// Number of changes after the first, not counting a quote or mark alone.
 int change_count(const Claim& claim);
 
@@ -100,9 +99,5 @@ const std::vector<Claim>& claims();
 
 /// Throws: Error.
 ClaimSet parse_claims(const std::string& text, const std::string& where);
-
-/// A sentence per entry of `earlier` that `later` changes. It may add entries, and fill an empty commit or
-/// `came_out`.
-std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later);
 
 }  // namespace glovebench::reports

@@ -14,10 +14,10 @@
 #include <stdexcept>
 
 #include "ci/build_paths.h"
-#include "core/base/error.h"
 #include "core/test_folder.h"
 #include "reports/claims/claims.h"
 #include "reports/embedded.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -38,13 +38,45 @@ ClaimSet changed_set(const std::function<void(json&)>& change) {
   change(document);
   return parse_claims(document.dump(), "claims.json");
 }
-std::string history_error(const std::function<void(json&)>& change) {
-  try {
-    changed_set(change);
-  } catch (const Error& error) {
-    return error.what();
+
+bool is_kept(ClaimChange earlier, const ClaimChange& later) {
+  if (!earlier.commit) earlier.commit = later.commit;
+  if (!earlier.came_out) earlier.came_out = later.came_out;
+  return earlier == later;
+}
+bool is_kept(JudgingChange earlier, const JudgingChange& later) {
+  if (!earlier.commit) earlier.commit = later.commit;
+  return earlier == later;
+}
+
+template <typename Change>
+void compare(const std::string& whose, const std::vector<Change>& earlier, const std::vector<Change>& later,
+             std::vector<std::string>& found) {
+  for (size_t i = 0; i < earlier.size(); ++i) {
+    if (i >= later.size())
+      found.push_back(fmt::format("{}: entry {} of its history is gone", whose, i + 1));
+    else if (!is_kept(earlier[i], later[i]))
+      found.push_back(fmt::format("{}: entry {} of its history is another one", whose, i + 1));
   }
-  return "no error";
+}
+
+/// A sentence per entry of `earlier` that `later` changes. It may add entries, and fill an empty commit or
+/// `came_out`.
+std::vector<std::string> tampering(const ClaimSet& earlier, const ClaimSet& later) {
+  std::vector<std::string> found;
+  compare("judging", earlier.judging, later.judging, found);
+  for (const Claim& claim : earlier.claims) {
+    const auto now = std::ranges::find(later.claims, claim.id, &Claim::id);
+    if (now == later.claims.end())
+      found.push_back(fmt::format("{}: the claim is gone", claim.id));
+    else
+      compare(claim.id, claim.history, now->history, found);
+  }
+  return found;
+}
+
+std::string history_error(const std::function<void(json&)>& change) {
+  return thrown_by([&] { changed_set(change); });
 }
 
 TEST(ClaimsHistory, AChangeThatIsToldIsTaken) {
@@ -268,12 +300,7 @@ TEST(ClaimsHistory, NothingThatWasCommittedIsGoneOrAnother) {
 }
 
 std::string error_of_states(const std::string& folder) {
-  try {
-    committed_states(folder);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by<std::runtime_error>([&] { committed_states(folder); });
 }
 
 TEST(ClaimsHistory, ARepositoryThatCannotBeReadIsAnErrorAndNoneIsNot) {

@@ -30,6 +30,11 @@ std::string when(const std::string& date, const std::optional<std::string>& comm
   return commit ? fmt::format("{}, commit {}", date, *commit) : date;
 }
 
+std::string field_text(const ClaimDefinition& definition, const std::string& field) {
+  const nlohmann::ordered_json json = field_json(definition, field);
+  return json.is_string() ? json.get<std::string>() : json.dump();
+}
+
 /// Old value, if any, and new value of a field.
 std::string change_html(const ClaimChange* before, const ClaimChange& after, const std::string& field) {
   const std::string old_text = before ? field_text(before->definition, field) : "";

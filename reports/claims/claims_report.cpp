@@ -59,34 +59,18 @@ Table verdict_table(const std::vector<ClaimVerdict>& verdicts) {
 
 Json or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(); }
 
-/// As in claims.json, but a rule is in words.
-Json field_json(const ClaimDefinition& definition, const std::string& field) {
-  if (field == "required") return definition.required;
-  if (field == "withdrawn") return definition.withdrawn;
-  if (field == "ours") return definition.ours;
-  return field_text(definition, field);
+Json entry_json(const ClaimChange& change) {
+  Json set = Json::object();
+  for (const std::string& field : change.set) set[field] = field_json(change.definition, field);
+  return {{"date", change.date},
+          {"commit", or_null(change.commit)},
+          {"set", std::move(set)},
+          {"came_out", or_null(change.came_out)},
+          {"why", change.why}};
 }
 
-Json history_json(const Claim& claim) {
-  Json history = Json::array();
-  for (const ClaimChange& change : claim.history) {
-    Json set = Json::object();
-    for (const std::string& field : change.set) set[field] = field_json(change.definition, field);
-    history.push_back({{"date", change.date},
-                       {"commit", or_null(change.commit)},
-                       {"set", std::move(set)},
-                       {"came_out", or_null(change.came_out)},
-                       {"why", change.why}});
-  }
-  return history;
-}
-
-Json judging_json() {
-  Json judging = Json::array();
-  for (const JudgingChange& change : claim_set().judging)
-    judging.push_back(
-        {{"date", change.date}, {"commit", or_null(change.commit)}, {"rule", change.rule}, {"why", change.why}});
-  return judging;
+Json judging_json(const JudgingChange& change) {
+  return {{"date", change.date}, {"commit", or_null(change.commit)}, {"rule", change.rule}, {"why", change.why}};
 }
 
 Json verdict_json(const ClaimVerdict& verdict) {
@@ -99,22 +83,16 @@ Json verdict_json(const ClaimVerdict& verdict) {
                {"interval", interval_json(verdict.measure->interval)},
                {"is_time", verdict.measure->is_time}};
   }
-  return {{"id", verdict.claim.id},
-          {"outcome", to_string(verdict.outcome)},
-          {"required", claim.required},
-          {"kind", to_string(claim.kind)},
-          {"claim", claim.claim},
-          {"quote", claim.quote},
-          {"source", claim.source},
-          {"paper_value", claim.paper_value},
-          {"measured", claim.measured},
-          {"rule", to_string(claim.rule)},
-          {"ours", claim.ours},
-          {"holm_p", rounded_or_null(verdict.p)},
-          {"measure_name", claim.measure},
-          {"measure", std::move(measure)},
-          {"if_not", claim.if_not},
-          {"history", history_json(verdict.claim)}};
+  Json json = {{"id", verdict.claim.id}, {"outcome", to_string(verdict.outcome)}};
+  for (const char* field :
+       {"required", "kind", "claim", "quote", "source", "paper_value", "measured", "rule", "ours"})
+    json[field] = field_json(claim, field);
+  json["holm_p"] = rounded_or_null(verdict.p);
+  json["measure_name"] = claim.measure;
+  json["measure"] = std::move(measure);
+  json["if_not"] = claim.if_not;
+  json["history"] = array_of(verdict.claim.history, entry_json);
+  return json;
 }
 
 Json required_json(const RequiredClaims& count) {
@@ -126,16 +104,9 @@ Json required_json(const RequiredClaims& count) {
 
 Json csv_row(const std::string& run, const ClaimVerdict& verdict) {
   const ClaimDefinition& claim = verdict.claim.definition();
-  Json row = {run,
-              verdict.claim.id,
-              to_string(verdict.outcome),
-              claim.required,
-              to_string(claim.kind),
-              claim.source,
-              claim.paper_value,
-              claim.measure,
-              to_string(claim.rule),
-              claim.ours};
+  Json row = {run, verdict.claim.id, to_string(verdict.outcome)};
+  for (const char* field : {"required", "kind", "source", "paper_value", "measure", "rule", "ours"})
+    row.push_back(field_json(claim, field));
   const auto& measure = verdict.measure;
   row.push_back(measure ? Json(measure->unit) : Json());
   row.push_back(measure ? rounded_or_null(measure->value) : Json());
@@ -234,14 +205,12 @@ std::string claims_csv(const std::string& run, const std::vector<ClaimVerdict>& 
 }
 
 std::string claims_json(const std::vector<ClaimVerdict>& verdicts) {
-  Json json = Json::array();
-  for (const ClaimVerdict& verdict : verdicts) json.push_back(verdict_json(verdict));
   return format_json({{"format", "glovebench-verdicts"},
                       {"version", 2},
                       {"required_claim_failed", count_required(verdicts).failed > 0},
                       {"required", required_json(count_required(verdicts))},
-                      {"judging", judging_json()},
-                      {"verdicts", std::move(json)}});
+                      {"judging", array_of(claim_set().judging, judging_json)},
+                      {"verdicts", array_of(verdicts, verdict_json)}});
 }
 
 }  // namespace glovebench::reports

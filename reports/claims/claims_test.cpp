@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "reports/embedded.h"
 #include "reports/paper_numbers.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -19,12 +20,7 @@ using testing::HasSubstr;
 std::string claims_error(const std::function<void(json&)>& change) {
   json document = json::parse(embedded_claims());
   change(document);
-  try {
-    parse_claims(document.dump(), "claims.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { parse_claims(document.dump(), "claims.json"); });
 }
 
 const Claim* find_claim(const std::string& measure) {

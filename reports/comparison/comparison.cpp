@@ -178,18 +178,12 @@ std::string comparison_explanation(const Comparison& comparison) {
       "Differences are candidate minus baseline, frame by frame and seed by seed, over the frames that have the "
       "value in both; above zero is worse. For these trajectories: intervals are Student's t times the standard "
       "error of a paired bootstrap over blocks of at least {} successive frames and over noise seeds ({}), each "
-      "wide "
-      "enough for all {} together to err in {:g}% of comparisons of equal programs as far as blocks tell; what "
-      "other "
-      "seeds do is for the minimum effect ({}). They say nothing about other movements or hands. {}{}Better or "
-      "worse: "
-      "the interval excludes zero and the difference is at least the minimum effect. Same: the whole interval lies "
-      "within the minimum effect, or all frames are equal. Worse in places: the interval cannot tell the rise from "
-      "chance, since it lies in "
-      "few "
-      "blocks; but on these same frames it is twice the minimum effect or more (of a share, once). Not enough "
-      "data: "
-      "none of these.",
+      "wide enough for all {} together to err in {:g}% of comparisons of equal programs as far as blocks tell; "
+      "what other seeds do is for the minimum effect ({}). They say nothing about other movements or hands. "
+      "{}{}Better or worse: the interval excludes zero and the difference is at least the minimum effect. Same: "
+      "the whole interval lies within the minimum effect, or all frames are equal. Worse in places: the interval "
+      "cannot tell the rise from chance, since it lies in few blocks; but on these same frames it is twice the "
+      "minimum effect or more (of a share, once). Not enough data: none of these.",
       config.block_frames, comparison.seeds, comparison.rows.size(), 100 * config.family_error,
       floor_sentence(comparison), noise, choice);
 }

@@ -69,10 +69,8 @@ Json changed_frame_json(const ChangedFrame& frame) {
 
 Json differences_json(const FrameDifferences& experiment) {
   Json differences = Json::object();
-  for (const auto& [metric, values] : experiment.differences) {
-    Json& row = differences[std::string(metric->key)] = Json::array();
-    for (const auto& value : values) row.push_back(rounded_or_null(value));
-  }
+  for (const auto& [metric, values] : experiment.differences)
+    differences[std::string(metric->key)] = array_of(values, rounded_or_null);
   return {{"experiment", experiment.experiment},
           {"first_frame", experiment.first_frame},
           {"differences", std::move(differences)}};
@@ -82,13 +80,6 @@ Json differences_json(const FrameDifferences& experiment) {
 Json change_json(const ConfigurationChange& change) {
   const auto value = [](const std::string& text) { return text.empty() ? Json() : Json(text); };
   return {{"field", change.field}, {"baseline", value(change.baseline)}, {"candidate", value(change.candidate)}};
-}
-
-template <typename Items, typename ToJson>
-Json array_of(const Items& items, ToJson to_json) {
-  Json array = Json::array();
-  for (const auto& item : items) array.push_back(to_json(item));
-  return array;
 }
 
 }  // namespace

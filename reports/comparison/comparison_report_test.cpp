@@ -6,16 +6,14 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/base/error.h"
-#include "core/base/file_set.h"
-#include "core/base/hash.h"
 #include "core/base/input_file.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
 #include "reports/comparison/comparison_text.h"
 #include "reports/comparison/example_comparison.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -25,13 +23,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream in(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
-}
 
 /// The small comparison with a name that has a special meaning in every format.
 ComparisonReport hostile_comparison() {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reports/text.h"
-
 namespace glovebench::reports {
 namespace {
 

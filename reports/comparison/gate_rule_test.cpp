@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "reports/comparison/example_comparison.h"
 #include "reports/comparison/example_runs.h"
 #include "reports/example_result.h"
 #include "reports/results_json.h"
@@ -15,18 +16,10 @@ using testing::IsEmpty;
 constexpr std::string_view kGatedPosition = "position_error_mm", kGatedUncovered = "uncovered_percent";
 
 ComparisonRow row(std::string_view metric, double difference, Verdict verdict) {
-  ComparisonRow row;
-  row.experiment = "Tr4_x";
-  row.metric = &metric_of(metric);
+  ComparisonRow row = example_row("Tr4_x", metric, 2.98, difference, 0.21, verdict);
   row.pairs = row.frames = 200;
   row.blocks = 8;
-  row.baseline = 2.98;
-  row.candidate = 2.98 + difference;
-  row.difference = difference;
-  row.low = difference - 0.21;
-  row.high = difference + 0.21;
   row.minimum_effect = 0.12;
-  row.verdict = verdict;
   return row;
 }
 

@@ -8,6 +8,7 @@
 #include "reports/comparison/comparison.h"
 #include "reports/comparison/example_runs.h"
 #include "reports/comparison/gate_rule.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -41,15 +42,6 @@ RunResult simulated(const std::vector<uint64_t>& seeds, double shift_mm = 0, int
 const NoiseFloor& example_floor() {
   static const NoiseFloor floor = measure_noise_floor(simulated(seeds_from(1000, 24)), kSeedsPerResult);
   return floor;
-}
-
-std::string noise_floor_error(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(NoiseFloor, RecoversTheSpreadOverSeeds) {
@@ -123,13 +115,13 @@ TEST(NoiseFloorLong, WhatIsCalledDetectableIsDetectedMostly) {
 }
 
 TEST(NoiseFloor, NeedsEnoughSeedsThatAreTheSameEverywhere) {
-  EXPECT_EQ(noise_floor_error([] { measure_noise_floor(simulated(seeds_from(1, 7)), 2); }),
+  EXPECT_EQ(thrown_by([] { measure_noise_floor(simulated(seeds_from(1, 7)), 2); }),
             "noise floor: Tr1_DB_open_power_source_subject1_gradient_1.seeds: found 7, expected at least 8");
   RunResult result = simulated(seeds_from(1, 8));
   result.experiments[2].runs[3].seed = 99;
-  EXPECT_THAT(noise_floor_error([&] { measure_noise_floor(result, 2); }), HasSubstr("Tr3_"));
+  EXPECT_THAT(thrown_by([&] { measure_noise_floor(result, 2); }), HasSubstr("Tr3_"));
   result.experiments.clear();
-  EXPECT_THAT(noise_floor_error([&] { measure_noise_floor(result, 2); }), HasSubstr("experiments: found none"));
+  EXPECT_THAT(thrown_by([&] { measure_noise_floor(result, 2); }), HasSubstr("experiments: found none"));
 }
 
 TEST(NoiseFloor, WhatHasNoValuesHasNoEntry) {
@@ -165,7 +157,7 @@ TEST(NoiseFloor, ErrorsNameTheField) {
   const auto refused = [](const std::function<void(nlohmann::json&)>& change) {
     nlohmann::json json = nlohmann::json::parse(noise_floor_json(small_floor()));
     change(json);
-    return noise_floor_error([&] { read_text(json.dump()); });
+    return thrown_by([&] { read_text(json.dump()); });
   };
   using nlohmann::json;
   EXPECT_THAT(refused([](json& j) { j["format"] = "x"; }), HasSubstr("format: found \"x\""));

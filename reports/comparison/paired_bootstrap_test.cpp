@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "reports/comparison/example_runs.h"
+#include "reports/example_result.h"
 
 namespace glovebench::reports {
 namespace {

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
 
 namespace glovebench::reports {
 namespace {
@@ -99,11 +98,9 @@ void check_frames(const std::string& where, const std::string& field, const std:
         fmt::format("{} frames without it", expected.size()));
   for (size_t i = 0; i < found.size(); ++i) {
     const std::string frame = fmt::format("{}[{}].", field, i);
-    if (found[i].frame != expected[i].frame)
-      throw Incomparable(where, frame + "frame", std::to_string(found[i].frame), std::to_string(expected[i].frame));
-    if (found[i].timestamp_us != expected[i].timestamp_us)
-      throw Incomparable(where, frame + "timestamp_us", std::to_string(found[i].timestamp_us),
-                         std::to_string(expected[i].timestamp_us));
+    check_equal(where, frame + "frame", std::to_string(found[i].frame), std::to_string(expected[i].frame));
+    check_equal(where, frame + "timestamp_us", std::to_string(found[i].timestamp_us),
+                std::to_string(expected[i].timestamp_us));
   }
 }
 

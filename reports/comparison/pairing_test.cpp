@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/comparison/example_runs.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -20,12 +21,7 @@ NamedResult two_experiments(const std::string& name) {
 }
 
 std::string refusal(const NamedResult& baseline, const NamedResult& candidate, const PairingOptions& options = {}) {
-  try {
-    pair_results(baseline, candidate, options);
-  } catch (const Incomparable& error) {
-    return error.what();
-  }
-  return "no refusal";
+  return thrown_by<Incomparable>([&] { pair_results(baseline, candidate, options); });
 }
 
 std::string refusal_of_change(const std::function<void(RunResult&)>& change, const PairingOptions& options = {}) {
@@ -102,8 +98,8 @@ TEST(Pairing, OtherTruthsAndDatabasesAreRefused) {
 }
 
 TEST(Pairing, InputsOfWhatIsNotSharedDoNotMatter) {
-  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths["source/Tr3"] = "01"; }), "no refusal");
-  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.color_table = "01"; }), "no refusal")
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.truths["source/Tr3"] = "01"; }), "no error");
+  EXPECT_EQ(refusal_of_change([](RunResult& r) { r.inputs.color_table = "01"; }), "no error")
       << "a table calibrated otherwise is a change of the tracker, to be measured";
 }
 
@@ -111,7 +107,7 @@ TEST(Pairing, SeedsMustBeTheSameUnlessOthersAreAskedFor) {
   const auto other = [](RunResult& r) { r.experiments[1].runs[1].seed = 3; };
   EXPECT_EQ(refusal_of_change(other),
             "out/new: Tr4_DB_open_power_source_subject1_gradient_1.seeds: found [1, 3], expected [1, 2]");
-  EXPECT_EQ(refusal_of_change(other, {.other_seeds = true}), "no refusal");
+  EXPECT_EQ(refusal_of_change(other, {.other_seeds = true}), "no error");
   const auto fewer = [](RunResult& r) { r.experiments[0].runs.pop_back(); };
   EXPECT_THAT(refusal_of_change(fewer), HasSubstr("seeds: found [1], expected [1, 2]"));
   EXPECT_THAT(refusal_of_change(fewer, {.other_seeds = true}), HasSubstr("seeds: found [1], expected 2 seeds"));

@@ -278,11 +278,10 @@ std::string recommendation_of(const std::vector<Compared>& all, const Compared& 
 
 std::string explanation_of(const SettingsTable& settings, bool has_times) {
   return fmt::format(
-      "Means are over the frames that have a value, then over the experiments that all runs have. "
-      "Differences are from {}{}, frame by frame over the frames that both have; above zero is worse. The "
-      "intervals low to high are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold "
-      "together with "
-      "{:g}%. Verdicts as in `glovebench compare`. {}",
+      "Means are over the frames that have a value, then over the experiments that all runs have. Differences are "
+      "from {}{}, frame by frame over the frames that both have; above zero is worse. The intervals low to high "
+      "are paired (bootstrap over noise seeds and blocks of at least {} frames) and hold together with {:g}%. "
+      "Verdicts as in `glovebench compare`. {}",
       settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run",
       settings.config.block_frames, settings.config.confidence_percent(),
       has_times

@@ -9,7 +9,7 @@
 #include "core/base/input_file.h"
 #include "core/base/json_cursor.h"
 #include "core/base/parse_json.h"
-#include "reports/comparison/pairing.h"
+#include "reports/results.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {

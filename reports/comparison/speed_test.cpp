@@ -7,7 +7,8 @@
 #include "core/base/random.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
-#include "reports/comparison/pairing.h"
+#include "reports/results.h"
+#include "reports/test_text.h"
 
 namespace glovebench::reports {
 namespace {
@@ -51,12 +52,7 @@ json benchmark_file() {
 std::vector<SpeedRatio> parsed(const json& file) { return parse_speed_ratios(file.dump(), "bench.json"); }
 
 std::string speed_error(const std::string& text) {
-  try {
-    parse_speed_ratios(text, "bench.json");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return thrown_by([&] { parse_speed_ratios(text, "bench.json"); });
 }
 
 template <typename Change>
@@ -200,12 +196,8 @@ TEST(CompareSpeed, sees_that_a_small_ratio_is_gone) {
 }
 
 TEST(CompareSpeed, does_not_pass_over_a_ratio_that_is_gone) {
-  try {
-    compare_speed({{"gone", 2, 2, 2}}, {{"other", 2, 2, 2}}, "bench.json");
-    FAIL() << "a missing ratio was accepted";
-  } catch (const Incomparable& error) {
-    EXPECT_THAT(error.what(), HasSubstr("bench.json: gone: found nothing"));
-  }
+  const auto compare = [] { compare_speed({{"gone", 2, 2, 2}}, {{"other", 2, 2, 2}}, "bench.json"); };
+  EXPECT_THAT(thrown_by<Incomparable>(compare), HasSubstr("bench.json: gone: found nothing"));
 }
 
 TEST(SpeedRatios, of_a_damaged_file_are_an_error_or_ratios_that_can_be_kept) {

@@ -15,11 +15,6 @@ double milliseconds(const JsonCursor& json) {
   return value;
 }
 
-StageTimes::Stage* find_stage(std::vector<StageTimes::Stage>& stages, const std::string& name) {
-  const auto found = std::ranges::find(stages, name, &StageTimes::Stage::name);
-  return found == stages.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 StageTimes read_stage_times(const std::string& timings_path) {
@@ -36,13 +31,13 @@ StageTimes parse_stage_times(const std::string& text, const std::string& where) 
   for (const JsonCursor& experiment : experiments) {
     for (const auto& [name, stage] : experiment["stages"].members()) {
       if (stage["median_ms"].is_null()) continue;
-      StageTimes::Stage* known = find_stage(times.stages, name);
-      if (!known) {
-        known = &times.stages.emplace_back(StageTimes::Stage{name, 0});
+      const auto s = std::ranges::find(times.stages, name, &StageTimes::Stage::name) - times.stages.begin();
+      if (s == std::ssize(times.stages)) {
+        times.stages.push_back({name, 0});
         counts.push_back(0);
       }
-      known->median_ms += milliseconds(stage["median_ms"]);
-      ++counts[known - times.stages.data()];
+      times.stages[s].median_ms += milliseconds(stage["median_ms"]);
+      ++counts[s];
     }
   }
   for (size_t s = 0; s < counts.size(); ++s) times.stages[s].median_ms /= counts[s];

@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "core/base/damaged_text.h"
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
 #include "core/test_folder.h"
+#include "reports/test_text.h"
 #include "reports/timings.h"
 
 namespace glovebench::reports {
@@ -57,13 +56,8 @@ TEST_F(StageTimesFile, RoundTripsWithinAnotherFile) {
 
 TEST_F(StageTimesFile, RefusesWhatIsNoTime) {
   nlohmann::json document = nlohmann::json::parse(timings_json(two_experiments()));
-  const auto error_of = [&](const nlohmann::json& changed) -> std::string {
-    try {
-      read_stage_times(write(changed.dump()));
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "no error";
+  const auto error_of = [&](const nlohmann::json& changed) {
+    return thrown_by([&] { read_stage_times(write(changed.dump())); });
   };
   nlohmann::json changed = document;
   changed["experiments"][1]["stages"]["align"]["median_ms"] = -1;

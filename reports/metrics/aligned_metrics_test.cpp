@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "ci/build_paths.h"
 #include "core/base/math.h"
 #include "reports/metrics/example_frame.h"
 #include "reports/metrics/measure_frame.h"
@@ -11,19 +10,10 @@ namespace {
 /// Of values computed in doubles; vertices are floats.
 constexpr double kRoundingOfJoints_mm = 1e-9, kRoundingOfVertices_mm = 1e-3;
 
-const HandModel& aligned_hand() {
-  static const HandModel hand = HandModel::load(build_paths::hand_mesh());
-  return hand;
-}
-
-FrameTruth aligned_truth() {
-  return {some_posture(), some_pose(), aligned_hand().pose(some_posture()).T_hand_joint, {}};
-}
-
 TEST(AlignedMetrics, ATranslationIsAlignedAway) {
   TrackResult estimate = make_estimate();
   estimate.T_camera_hand.pretranslate(Eigen::Vector3d(0.003, -0.004, 0.012));
-  const FrameRecord record = measure_frame(0, estimate, aligned_truth(), aligned_hand()).record;
+  const FrameRecord record = measure_frame(0, estimate, example_truth(), example_hand()).record;
   EXPECT_NEAR(*record["joint_error_mm"], 13, kRoundingOfJoints_mm);
   for (const char* metric : {"mpjpe_root_mm", "mpjpe_scaled_mm", "mpjpe_procrustes_mm"})
     EXPECT_NEAR(*record[metric], 0, kRoundingOfJoints_mm) << metric;
@@ -35,8 +25,8 @@ TEST(AlignedMetrics, ATurnRemainsUnlessRotationsAreAligned) {
   const double angle = radians_from_degrees(10);
   TrackResult estimate = make_estimate();
   estimate.T_camera_hand.rotate(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()));
-  const FrameTruth truth = aligned_truth();
-  const FrameRecord record = measure_frame(0, estimate, truth, aligned_hand()).record;
+  const FrameTruth truth = example_truth();
+  const FrameRecord record = measure_frame(0, estimate, truth, example_hand()).record;
   double chords_mm = 0;
   for (int j = 0; j < kForearmJoint; ++j) {
     const Eigen::Vector3d p = truth.T_hand_joint[j].translation() - truth.T_hand_joint[kWristJoint].translation();
@@ -50,13 +40,13 @@ TEST(AlignedMetrics, ATurnRemainsUnlessRotationsAreAligned) {
 }
 
 TEST(AlignedMetrics, AHandOfAnotherSizeRemainsUnlessScalesAreAligned) {
-  FrameTruth truth = aligned_truth();
+  FrameTruth truth = example_truth();
   double distances_mm = 0;
   const Eigen::Vector3d wrist = truth.T_hand_joint[kWristJoint].translation();
   for (Eigen::Isometry3d& joint : truth.T_hand_joint) joint.translation() *= 1.1;
   for (int j = 0; j < kForearmJoint; ++j)
     distances_mm += 1000 * 0.1 * (truth.T_hand_joint[j].translation() / 1.1 - wrist).norm();
-  const FrameRecord record = measure_frame(0, make_estimate(), truth, aligned_hand()).record;
+  const FrameRecord record = measure_frame(0, make_estimate(), truth, example_hand()).record;
   EXPECT_NEAR(*record["mpjpe_root_mm"], distances_mm / kForearmJoint, kRoundingOfJoints_mm);
   EXPECT_NEAR(*record["mpjpe_scaled_mm"], 0, kRoundingOfJoints_mm);
   EXPECT_NEAR(*record["mpjpe_procrustes_mm"], 0, kRoundingOfJoints_mm);
@@ -65,7 +55,7 @@ TEST(AlignedMetrics, AHandOfAnotherSizeRemainsUnlessScalesAreAligned) {
 TEST(AlignedMetrics, ABentFingerRemainsInAll) {
   TrackResult estimate = make_estimate();
   estimate.posture[kIndexPipFlexion] += radians_from_degrees(40);
-  const FrameErrors errors = measure_frame(0, estimate, aligned_truth(), aligned_hand());
+  const FrameErrors errors = measure_frame(0, estimate, example_truth(), example_hand());
   const FrameRecord& record = errors.record;
   EXPECT_NEAR(*record["mpjpe_root_mm"], *record["joint_error_mm"], kRoundingOfJoints_mm) << "the wrists are one";
   EXPECT_GT(*record["mpjpe_procrustes_mm"], 0.5);

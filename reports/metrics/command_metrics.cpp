@@ -1,5 +1,7 @@
 // Numbers of an experiment's robot commands.
 
+#include <numeric>
+
 #include "reports/metrics/metric.h"
 #include "reports/results.h"
 
@@ -53,12 +55,6 @@ Metric state_metric(int place, std::string_view key, std::string_view descriptio
           .digits = 0};
 }
 
-Value count_sent(Commands commands) {
-  int count = 0;
-  for (const int sent : commands.sent) count += sent;
-  return count;
-}
-
 Value count_interventions(Commands commands) {
   double count = 0;
   for (const Intervention kind : all_values<Intervention>())
@@ -72,7 +68,8 @@ std::vector<Metric> stream_metrics() {
            .description = "robot commands, after the guard",
            .formula = "count",
            .place = 3000,
-           .of_experiment = of_commands<count_sent>,
+           .of_experiment =
+               of_commands<[](Commands c) { return Value(std::accumulate(c.sent.begin(), c.sent.end(), 0)); }>,
            .over = "all frames; lost ones give commands that hold",
            .digits = 0},
           {.key = "command_rate_hz",

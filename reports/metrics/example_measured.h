@@ -4,9 +4,9 @@
 
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/example_frame.h"
 #include "reports/metrics/measure_frame.h"
-#include "reports/metrics/visibility.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -24,9 +24,8 @@ inline Json joints_json(const Eigen::Isometry3d& T_camera_hand, const JointPoses
 }
 
 inline Json vertices_json(const Eigen::Isometry3d& T_camera_hand, const PosedHand& hand) {
-  Json rows = Json::array();
-  for (const Eigen::Vector3f& vertex : hand.vertices) rows.push_back(row_of(T_camera_hand * vertex.cast<double>()));
-  return rows;
+  return array_of(hand.vertices,
+                  [&](const Eigen::Vector3f& vertex) { return row_of(T_camera_hand * vertex.cast<double>()); });
 }
 
 inline Json pose_json(const Eigen::Isometry3d& T) {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/base/error.h"
-#include "core/base/math.h"
 #include "reports/metrics/coverage.h"
 
 namespace glovebench::reports {

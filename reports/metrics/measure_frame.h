@@ -21,7 +21,7 @@ struct FrameTruth {
   JointPoses T_hand_joint;                        ///< of the rendered hand
   std::array<int, kPatchCount> visible_pixels{};  ///< per patch, in the IR camera
   bool trackable = false;                         ///< enough glove in the working volume, none cut by the border
-  std::optional<double> visible_percent = {};     ///< visibility.h; empty if not requested
+  std::optional<double> visible_percent = {};     ///< coverage.h; empty if not requested
 };
 
 /// All values are finite.

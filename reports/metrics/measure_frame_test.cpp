@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "ci/build_paths.h"
 #include "core/base/math.h"
 #include "core/hand/skeleton.h"
+#include "reports/metrics/coverage.h"
 #include "reports/metrics/example_frame.h"
 
 namespace glovebench::reports {
@@ -17,20 +17,15 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Of a value computed in doubles from meters and radians.
 constexpr double kRounding = 1e-6;
 
-const HandModel& hand() {
-  static const HandModel model = HandModel::load(build_paths::hand_mesh());
-  return model;
-}
-
 FrameTruth make_truth() {
-  FrameTruth truth{some_posture(), some_pose(), hand().pose(some_posture()).T_hand_joint, {}};
+  FrameTruth truth = example_truth();
   truth.visible_pixels.fill(1000);
   truth.trackable = true;
   return truth;
 }
 
 FrameRecord measure(const TrackResult& estimate, const FrameTruth& truth = make_truth()) {
-  return measure_frame(7, estimate, truth, hand()).record;
+  return measure_frame(7, estimate, truth, example_hand()).record;
 }
 
 TEST(MeasureFrame, PerfectEstimateHasNoError) {
@@ -73,7 +68,7 @@ TEST(MeasureFrame, RotationAboutTheHandsOriginMovesPointsByTheChord) {
   TrackResult estimate = make_estimate();
   estimate.T_camera_hand.linear() =
       estimate.T_camera_hand.linear() * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  const FrameErrors errors = measure_frame(0, estimate, make_truth(), hand());
+  const FrameErrors errors = measure_frame(0, estimate, make_truth(), example_hand());
   EXPECT_NEAR(*errors.record["rotation_error_deg"], 10, kRounding);
   EXPECT_NEAR(*errors.record["position_error_mm"], 0, kRounding);
   const JointPoses& joints = make_truth().T_hand_joint;
@@ -91,7 +86,7 @@ TEST(MeasureFrame, RotationAboutTheHandsOriginMovesPointsByTheChord) {
 TEST(MeasureFrame, OneJointMovesOnlyWhatHangsOnIt) {
   TrackResult estimate = make_estimate();
   estimate.posture[kIndexPipFlexion] += radians_from_degrees(22);
-  const FrameErrors errors = measure_frame(0, estimate, make_truth(), hand());
+  const FrameErrors errors = measure_frame(0, estimate, make_truth(), example_hand());
   const FrameRecord& record = errors.record;
   EXPECT_NEAR(*record["posture_rms_deg"], 22 / std::sqrt(22.0), kRounding);
   EXPECT_NEAR(*record["posture_mean_abs_deg"], 1, kRounding);
@@ -165,7 +160,7 @@ TEST(MeasureFrame, LostFrameHasNoErrors) {
   TrackResult estimate = make_estimate();
   estimate.status = TrackStatus::poor_match;
   estimate.matches = {Match{.entry = 3, .error = 1.5F}};
-  const FrameErrors errors = measure_frame(0, estimate, make_truth(), hand());
+  const FrameErrors errors = measure_frame(0, estimate, make_truth(), example_hand());
   EXPECT_TRUE(errors.joint_errors_mm.empty());
   EXPECT_FALSE(errors.record.covered || errors.record.false_tracked);
   EXPECT_TRUE(errors.record.false_lost) << "the hand was there";

@@ -1,27 +1,22 @@
 #include <gtest/gtest.h>
 
-#include "ci/build_paths.h"
 #include "core/base/math.h"
+#include "reports/metrics/example_frame.h"
 #include "reports/metrics/measure_frame.h"
 
 namespace glovebench::reports {
 namespace {
 
-const HandModel& palm_hand() {
-  static const HandModel hand = HandModel::load(build_paths::hand_mesh());
-  return hand;
-}
-
 /// Metric of an estimate that differs from the truth, for a hand at rest 0.7 m in front of the camera.
 std::optional<double> palm_error(const std::function<void(TrackResult&)>& change) {
   FrameTruth truth;
   truth.T_camera_hand = Eigen::Translation3d(0.05, 0, 0.7);
-  truth.T_hand_joint = palm_hand().pose(truth.posture).T_hand_joint;
+  truth.T_hand_joint = example_hand().pose(truth.posture).T_hand_joint;
   TrackResult estimate;
   estimate.status = TrackStatus::tracked;
   estimate.T_camera_hand = truth.T_camera_hand;
   change(estimate);
-  return measure_frame(0, estimate, truth, palm_hand()).record["palm_error_mm"];
+  return measure_frame(0, estimate, truth, example_hand()).record["palm_error_mm"];
 }
 
 TEST(PalmMetrics, OnlyThePoseCounts) {
@@ -45,7 +40,7 @@ TEST(PalmMetrics, ATurnCountsByTheChordsOfWristAndKnuckles) {
   double sum = 0;
   for (const char* name : {"wrist", "index-finger-phalanx-proximal", "middle-finger-phalanx-proximal",
                            "ring-finger-phalanx-proximal", "pinky-finger-phalanx-proximal"}) {
-    const Eigen::Vector3d p = palm_hand().pose(Posture::Zero()).T_hand_joint[joint_index(name)].translation();
+    const Eigen::Vector3d p = example_hand().pose(Posture::Zero()).T_hand_joint[joint_index(name)].translation();
     sum += 1000 * 2 * std::sin(angle / 2) * std::hypot(p.x(), p.z());
   }
   EXPECT_NEAR(palm_error(turn).value(), sum / 5, 1e-9);

@@ -6,29 +6,26 @@ namespace {
 
 using Chosen = std::array<bool, kAngleCount>;
 
-/// Root mean square of the chosen angles, degrees; empty if none is chosen.
-std::optional<double> rms_deg(const Posture& difference, const Chosen& chosen) {
+/// Of the chosen angles; empty if none is chosen.
+std::optional<double> mean_of(const Posture& values, const Chosen& chosen) {
   double sum = 0;
   int count = 0;
   for (int a = 0; a < kAngleCount; ++a) {
     if (!chosen[a]) continue;
-    sum += difference[a] * difference[a];
+    sum += values[a];
     ++count;
   }
-  if (count == 0) return {};
-  return degrees_from_radians(std::sqrt(sum / count));
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+std::optional<double> rms_deg(const Posture& difference, const Chosen& chosen) {
+  const std::optional<double> square = mean_of(difference.cwiseAbs2(), chosen);
+  return square ? std::optional(degrees_from_radians(std::sqrt(*square))) : std::nullopt;
 }
 
 std::optional<double> mean_abs_deg(const Posture& difference, const Chosen& chosen) {
-  double sum = 0;
-  int count = 0;
-  for (int a = 0; a < kAngleCount; ++a) {
-    if (!chosen[a]) continue;
-    sum += std::abs(difference[a]);
-    ++count;
-  }
-  if (count == 0) return {};
-  return degrees_from_radians(sum / count);
+  const std::optional<double> mean = mean_of(difference.cwiseAbs(), chosen);
+  return mean ? std::optional(degrees_from_radians(*mean)) : std::nullopt;
 }
 
 Chosen all_angles() {

@@ -46,8 +46,7 @@ Section command_section(const RunResult& result, const Timings& timings) {
 Section gallery_section(const std::vector<Picture>& pictures) {
   std::string html =
       "<p>Frames with the largest position and posture errors, at most two of an experiment, with every stage of "
-      "the "
-      "tracker. The command under each shows it again; run it in this folder.</p>\n<div class=\"gallery\">\n";
+      "the tracker. The command under each shows it again; run it in this folder.</p>\n<div class=\"gallery\">\n";
   for (const Picture& picture : pictures) {
     const std::string caption = escape_html(picture.caption);
     html += fmt::format(

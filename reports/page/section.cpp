@@ -78,8 +78,7 @@ void add_curve_section(std::vector<Section>& sections, const std::string& figure
   html += fmt::format(
       "<p class=\"legend\"><span class=\"key series-0\"></span>glovebench, noise seed {}; gaps are lost frames "
       "<span class=\"key series-1\"></span>the paper's own movement, for the shape and size of its errors: frames "
-      "of "
-      "the same number have nothing in common</p>\n",
+      "of the same number have nothing in common</p>\n",
       experiment->runs.front().seed);
   html += fmt::format("<div class=\"curves\" data-figure=\"{}\">\n<div class=\"panels\">\n", figure);
   for (const CurveError& error : kCurveErrors)
@@ -144,8 +143,7 @@ std::string two_tiles(const FrameSheet& sheet, int frame) {
 std::string color_legend() {
   return fmt::format(
       "<p class=\"depth-legend\">The true hand, and below it the depth of the estimated hand minus that of the "
-      "true "
-      "one: <span class=\"nowrap\">\u2212{0:.0f} mm (nearer) <span class=\"ramp\"></span> +{0:.0f} mm "
+      "true one: <span class=\"nowrap\">\u2212{0:.0f} mm (nearer) <span class=\"ramp\"></span> +{0:.0f} mm "
       "(farther)</span> <span class=\"nowrap\"><span class=\"swatch\"></span>only one of the two is "
       "there</span></p>\n",
       kSheetDifferenceMm);

@@ -3,34 +3,20 @@
 Usage: comparison_schema_test.py EXAMPLE_PROGRAM. Needs the Debian package python3-jsonschema.
 """
 
-import copy
-import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
-import jsonschema
+sys.dont_write_bytecode = True  # beside the sources
+from schema_test import SchemaCase
 
-SCHEMA = json.loads((pathlib.Path(__file__).parent / "comparison.schema.json").read_text())
 
-
-class ComparisonSchemaTest(unittest.TestCase):
-    program = None
-
-    @classmethod
-    def setUpClass(cls):
-        with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([cls.program, folder], check=True, stdout=subprocess.DEVNULL)
-            cls.full = json.loads(pathlib.Path(folder, "comparison", "comparison.json").read_text())
-            cls.small = json.loads(pathlib.Path(folder, "comparison", "small", "comparison.json").read_text())
-        jsonschema.Draft202012Validator.check_schema(SCHEMA)
-        cls.validator = jsonschema.Draft202012Validator(SCHEMA)
+class ComparisonSchemaTest(SchemaCase, unittest.TestCase):
+    schema = "comparison.schema.json"
+    full = "comparison/comparison.json"
+    small = "comparison/small/comparison.json"
 
     def test_accepts_written_comparisons(self):
-        for comparison in (self.full, self.small):
-            self.assertEqual([e.message for e in self.validator.iter_errors(comparison)], [])
+        self.expect_accepted()
 
     def test_refuses_changed_comparisons(self):
         changes = {
@@ -47,11 +33,7 @@ class ComparisonSchemaTest(unittest.TestCase):
             "text for slower": lambda c: c["speed"][0].update(slower="yes"),
             "family error of one": lambda c: c["method"].update(family_error=1),
         }
-        for name, change in changes.items():
-            with self.subTest(name):
-                comparison = copy.deepcopy(self.small)
-                change(comparison)
-                self.assertFalse(self.validator.is_valid(comparison))
+        self.expect_refused(self.small, changes)
 
 
 if __name__ == "__main__":

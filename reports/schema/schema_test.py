@@ -13,24 +13,41 @@ import unittest
 
 import jsonschema
 
-SCHEMA = json.loads((pathlib.Path(__file__).parent / "results.schema.json").read_text())
 
+class SchemaCase:
+    """A schema of this folder, and two documents that the example program writes."""
 
-class SchemaTest(unittest.TestCase):
-    program = None
+    program = schema = full = small = None
 
     @classmethod
     def setUpClass(cls):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([cls.program, folder], check=True, stdout=subprocess.DEVNULL)
-            cls.full = json.loads(pathlib.Path(folder, "results.json").read_text())
-            cls.small = json.loads(pathlib.Path(folder, "small", "results.json").read_text())
-        jsonschema.Draft202012Validator.check_schema(SCHEMA)
-        cls.validator = jsonschema.Draft202012Validator(SCHEMA)
+            cls.full = json.loads(pathlib.Path(folder, cls.full).read_text())
+            cls.small = json.loads(pathlib.Path(folder, cls.small).read_text())
+        schema = json.loads((pathlib.Path(__file__).parent / cls.schema).read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        cls.validator = jsonschema.Draft202012Validator(schema)
+
+    def expect_accepted(self):
+        for document in (self.full, self.small):
+            self.assertEqual([e.message for e in self.validator.iter_errors(document)], [])
+
+    def expect_refused(self, document, changes):
+        for name, change in changes.items():
+            with self.subTest(name):
+                changed = copy.deepcopy(document)
+                change(changed)
+                self.assertFalse(self.validator.is_valid(changed))
+
+
+class SchemaTest(SchemaCase, unittest.TestCase):
+    schema = "results.schema.json"
+    full = "results.json"
+    small = "small/results.json"
 
     def test_accepts_written_results(self):
-        for results in (self.full, self.small):
-            self.assertEqual([e.message for e in self.validator.iter_errors(results)], [])
+        self.expect_accepted()
 
     def test_refuses_changed_results(self):
         def frame(r):
@@ -51,11 +68,7 @@ class SchemaTest(unittest.TestCase):
             "a share of usable frames over one": lambda r: r["experiments"][0]["coverage"].update(usable_share=1.5),
             "other columns": lambda r: r["frame_columns"].reverse(),
         }
-        for name, change in changes.items():
-            with self.subTest(name):
-                results = copy.deepcopy(self.small)
-                change(results)
-                self.assertFalse(self.validator.is_valid(results))
+        self.expect_refused(self.small, changes)
 
     def test_refuses_changed_studies(self):
         def table(r):
@@ -75,11 +88,7 @@ class SchemaTest(unittest.TestCase):
             "too many digits": lambda r: table(r)["columns"][5].update(digits=7),
             "text for a value": lambda r: r["studies"][1]["measures"][0].update(value="1"),
         }
-        for name, change in changes.items():
-            with self.subTest(name):
-                results = copy.deepcopy(studies)
-                change(results)
-                self.assertFalse(self.validator.is_valid(results))
+        self.expect_refused(studies, changes)
 
 
 if __name__ == "__main__":
