@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "core/hand/hand_frame.h"
+#include "core/hand/posture.h"
 #include "core/tracker/track_result.h"
 #include "eval/run.h"
 #include "reports/metrics/measure_frame.h"
