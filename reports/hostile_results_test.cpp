@@ -64,7 +64,7 @@ TEST(HostileResults, NestedAMillionDeep) {
 TEST(HostileResults, BracketsInATextAreNoNesting) {
   json results = json::parse(example_text());
   results["configuration"]["note"] = "\\\"" + std::string(100, '[');
-  EXPECT_EQ(hostile_error(results.dump()), "no error");
+  EXPECT_EQ(hostile_error(results.dump()), "");
 }
 
 TEST(HostileResults, NumbersThatNoErrorHas) {
