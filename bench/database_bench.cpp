@@ -28,9 +28,8 @@ class Views {
   }
   std::vector<LabelImage> render(ViewRenderer& renderer) const {
     std::vector<LabelImage> images;
-    for (const Eigen::Isometry3d& T : T_view_hand_) {
+    for (const Eigen::Isometry3d& T : T_view_hand_)
       images.push_back(renderer.render_labels(*data().model, hand_, camera_, T));
-    }
     return images;
   }
 
@@ -63,9 +62,8 @@ void run_tiny_images(benchmark::State& state, MakeTinyImage make) {
   for (const LabelImage& view : views) {
     for (const int size : kTinySizes) {
       const Square square = bounding_square(view);
-      if (make(view, square, size) != make_tiny_image_plain(view, square, size)) {
+      if (make(view, square, size) != make_tiny_image_plain(view, square, size))
         return state.SkipWithError("the fast tiny image differs from the plain one");
-      }
     }
   }
   for (auto _ : state) {
@@ -106,9 +104,8 @@ void run_fields(benchmark::State& state, ChamferField chamfer) {
     const Square square = bounding_square(view);
     std::vector<LabelImage>& tiny = views.emplace_back();
     for (const int size : kTinySizes) tiny.push_back(make_tiny_image(view, square, size));
-    if (fields_of(tiny, chamfer) != fields_of(tiny, chamfer_field_plain)) {
+    if (fields_of(tiny, chamfer) != fields_of(tiny, chamfer_field_plain))
       return state.SkipWithError("the fast fields differ from the plain ones");
-    }
   }
   time_each(state, "view", views, [&](const std::vector<LabelImage>& tiny) { return fields_of(tiny, chamfer); });
 }

@@ -44,9 +44,8 @@ void track(benchmark::State& state, const char* algorithm) {
                             again = tracker.track(frame.device).T_camera_hand_unfiltered;
     const bool as_prepared =
         algorithm != d.config.icp.algorithm || found.matrix() == frame.result.T_camera_hand_unfiltered.matrix();
-    if (!as_prepared || found.matrix() != again.matrix()) {
+    if (!as_prepared || found.matrix() != again.matrix())
       return state.SkipWithError("a frame tracked twice is not the same");
-    }
   }
   StageTimes times;
   std::vector<double> seconds;  // of each frame
@@ -63,9 +62,8 @@ void track(benchmark::State& state, const char* algorithm) {
   set_time_each(state, "frame", d.frames.size());
   state.counters["p50_us"] = 1e6 * *quantile_of(seconds, 0.5);
   state.counters["p99_us"] = 1e6 * *quantile_of(seconds, 0.99);
-  for (const auto& [stage, stage_seconds] : times.seconds()) {
+  for (const auto& [stage, stage_seconds] : times.seconds())
     state.counters[std::string(to_string(stage))] = stage_seconds / static_cast<double>(frames);
-  }
 }
 // The paper's alignment, which is the default, and the robust one.
 BENCHMARK_CAPTURE(track, horn, "horn")->Name("frame/track")->Unit(benchmark::kMillisecond);

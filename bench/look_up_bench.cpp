@@ -206,13 +206,11 @@ void run_look_up_peer(benchmark::State& state, const char* text, const LookUpEng
 
 // What finds near entries solves another problem: its name keeps it out of the ratios.
 const int look_up_registered = [] {
-  for (const char* cascade : {"16:500,64:3", "16:1000,32:300,64:3", "8:15", "16:3", "32:3", "exact:3"}) {
-    for (const char* implementation : {"plain", "fast"}) {
+  for (const char* cascade : {"16:500,64:3", "16:1000,32:300,64:3", "8:15", "16:3", "32:3", "exact:3"})
+    for (const char* implementation : {"plain", "fast"})
       benchmark::RegisterBenchmark(fmt::format("look_up/{}/{}", cascade, implementation).c_str(), run_look_up,
                                    cascade, implementation)
           ->Unit(benchmark::kMillisecond);
-    }
-  }
   const std::vector<LookUpEngine> engines = {{"faiss", kFaiss},
                                              {"faiss_batch", kFaiss, Finds::nearest, Batch::all},
                                              {"faiss_bytes", kFaissBytes},

@@ -13,9 +13,8 @@ void rgbd_frame(benchmark::State& state) {
   };
   for (const BenchFrame& frame : data().frames) {
     const render::RgbdImages images = render_frame(frame);
-    if (images.color != frame.images.color || images.depth != frame.images.depth) {
+    if (images.color != frame.images.color || images.depth != frame.images.depth)
       return state.SkipWithError("a frame drawn twice is not the same");
-    }
   }
   time_each(state, "frame", data().frames, render_frame);
 }

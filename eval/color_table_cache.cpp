@@ -31,12 +31,10 @@ std::string input_hash(const HandModel& model, const RgbdCalibration& calibratio
   std::string text = fmt::format("{}/{}/{}/{}/{}", color_table_source_hash(), to_string(space), kViewsPerLighting,
                                  model.hash(), calibration.rgb.fx);
   for (const Posture& posture : postures) text += fmt::format("/{}", fmt::join(posture, ","));
-  for (const render::Lighting& l : calibration_lightings()) {
+  for (const render::Lighting& l : calibration_lightings())
     text += fmt::format("/{},{},{}", l.strength, l.temperature_k, fmt::join(l.direction_to_light, ","));
-  }
-  for (const Eigen::Vector3f& albedo : render::glove_albedos(render::Shader::first_subject)) {
+  for (const Eigen::Vector3f& albedo : render::glove_albedos(render::Shader::first_subject))
     text += fmt::format("/{}", fmt::join(albedo, ","));
-  }
   return hash_text(text);
 }
 

@@ -134,10 +134,9 @@ TEST_P(FreenectSignal, FinishesItsOutputWhenInterrupted) {
   render_dump(12, 0, 300'000);
   const StartedProgram started = start_glovebench(live(), fakenect());
   const auto has_begun = [&] {  // the file grows under a temporary name
-    for (const auto& entry : fs::directory_iterator(folder_)) {
+    for (const auto& entry : fs::directory_iterator(folder_))
       if (entry.path().filename().string().find("live.jsonl") != std::string::npos && entry.file_size() > 0)
         return true;
-    }
     return false;
   };
   for (int i = 0; i < 1000 && !has_begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));

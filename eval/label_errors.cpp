@@ -71,9 +71,8 @@ double LabelErrors::missed_share_of(int color) const {
 
 int LabelErrors::worst_color() const {
   int worst = 1;
-  for (int color = 2; color <= kColorCount; ++color) {
+  for (int color = 2; color <= kColorCount; ++color)
     if (missed_share_of(color) > missed_share_of(worst)) worst = color;
-  }
   return worst;
 }
 

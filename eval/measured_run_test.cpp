@@ -75,9 +75,8 @@ TEST(MeasureSequence, JitterOfAnAlternatingEstimateIsItsStep) {
 TEST(MeasureSequence, JitterOfNoiseOfKnownSize) {
   Sequence s = resting(2000);
   RandomStream random(1, "metrics_test", 0, "jitter");
-  for (TrackResult& estimate : s.estimates) {
+  for (TrackResult& estimate : s.estimates)
     for (int axis = 0; axis < 3; ++axis) estimate.T_camera_hand.translation()[axis] += 0.001 * random.normal();
-  }
   // The difference of two draws has twice the variance, in three axes. Four standard deviations of the estimate
   // from 2000 frames (6000 squared draws, neighbors correlated by -1/2) are 4%.
   EXPECT_NEAR(*s.measure().jitter_position_mm, std::sqrt(6.0), 0.04 * std::sqrt(6.0));
@@ -106,9 +105,8 @@ TEST(MeasureSequence, LatencyOfADelayedCopyIsItsDelay) {
 
 TEST(MeasureSequence, LatencyOfTheRecursiveFilterIsItsPhaseDelay) {
   Sequence s = bending(120, 0);
-  for (size_t i = 1; i < s.truth.size(); ++i) {
+  for (size_t i = 1; i < s.truth.size(); ++i)
     s.estimates[i].posture = 0.75 * s.estimates[i - 1].posture + 0.25 * s.truth[i].posture;
-  }
   // x = 0.75 x + 0.25 new delays a slow movement by 3 frames, and a sine of 0.2 rad per frame by this. The
   // distance is no parabola, since the filter also flattens the sine and starts at rest.
   const double delay = std::atan(0.75 * std::sin(0.2) / (1 - 0.75 * std::cos(0.2))) / 0.2;

@@ -170,10 +170,9 @@ constexpr int kKeyframeQuality = 80;
 Eigen::AlignedBox2d box_of_hand(const PinholeCamera& camera, const HandModel& hand,
                                 std::span<const HandFrame> frames) {
   Eigen::AlignedBox2d box;
-  for (const HandFrame& frame : frames) {
+  for (const HandFrame& frame : frames)
     for (const Eigen::Vector3f& p_hand : hand.pose(frame.posture).vertices)
       box.extend(camera.project(frame.T_camera_hand * p_hand.cast<double>()));
-  }
   constexpr double kMargin = 0.08;  // of the box, so that an estimate beside the truth is visible
   const Eigen::Vector2d margin = kMargin * box.sizes();
   return {box.min() - margin, box.max() + margin};
@@ -220,9 +219,8 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
                          const std::optional<HandFrame>& hand_in_run) {
   const int frame = in_run.frame;
   const int count = static_cast<int>(spec.trajectory->frames.size());
-  if (frame < 0 || frame >= count) {
+  if (frame < 0 || frame >= count)
     throw Error(spec.trajectory->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
-  }
   const OneFrame taken = take_frame(workbench, spec, frame);
   const std::shared_ptr<const Database> database = workbench.database(spec.database);
   const Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);

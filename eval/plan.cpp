@@ -77,9 +77,8 @@ std::string describe_plan(Workbench& workbench, const Plan& plan) {
   }
   std::string text = list_experiments(plan);
   text += fmt::format("seeds {}: {} frames to track\n", fmt::join(seeds, ", "), frames);
-  for (const std::string& name : databases) {
+  for (const std::string& name : databases)
     text += fmt::format("database {}: {}\n", name, workbench.has_database(name) ? "there" : "to be built");
-  }
   return text;
 }
 

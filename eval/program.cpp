@@ -39,9 +39,8 @@ std::string host_name() {
 
 std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
+  for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
   return "unknown";
 }
 
@@ -131,9 +130,8 @@ std::string default_cache_folder() {
 trajectories::Trajectory load_truth(const std::string& name_or_file, std::optional<reports::TruthKind> truth) {
   if (trajectories::is_trajectory_file(name_or_file)) {
     const trajectories::Trajectory trajectory = trajectories::load_trajectory(name_or_file);
-    if (truth && to_string(*truth) != to_string(trajectory.kind)) {
+    if (truth && to_string(*truth) != to_string(trajectory.kind))
       throw Error(name_or_file, "kind", std::string(to_string(trajectory.kind)), std::string(to_string(*truth)));
-    }
     return trajectory;
   }
   if (auto movement = make_movement(name_or_file)) {

@@ -28,9 +28,8 @@ std::map<std::string, std::string> frozen_hashes() {
 
 TEST(RecordedTruths, AreTheFrozenOnes) {
   std::map<std::string, std::string> found;
-  for (const std::string& name : trajectories::ground_truth_names()) {
+  for (const std::string& name : trajectories::ground_truth_names())
     found[name] = trajectories::hash(trajectories::recorded_trajectory(trajectory_folder(), name));
-  }
   EXPECT_EQ(found, frozen_hashes());
 }
 

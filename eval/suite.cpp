@@ -85,11 +85,10 @@ Subjects subjects_from(const JsonCursor& entry) {
 /// An entry of a suite's file: a trajectory, or movements of a family.
 std::vector<SuiteEntry> entries_from(const JsonCursor& field, const fs::path& folder) {
   const bool is_family = field.has("family");
-  if (is_family) {
+  if (is_family)
     field.expect_keys({"family", "movements", "databases"}, {"subject", "subjects", "noise", "frames"});
-  } else {
+  else
     field.expect_keys({"trajectory", "truth", "databases"}, {"subject", "noise", "frames"});
-  }
   SuiteEntry entry;
   entry.truth = is_family ? TruthKind::source : field["truth"].one_of<TruthKind>();
   for (const JsonCursor& item : field["databases"].some_items()) {
@@ -152,10 +151,9 @@ Truths load_truths(const std::vector<SuiteEntry>& entries, Side side) {
       throw Error(entry.trajectory, "side", std::string(to_string(loaded->side)),
                   "that of the run's other trajectories");
     }
-    for (const auto& [known, other] : truths) {
+    for (const auto& [known, other] : truths)
       if (other->name == loaded->name && other->kind == loaded->kind)
         throw Error(entry.trajectory, "name", loaded->name, "one not yet in the run");
-    }
     truths[place] = loaded;
   }
   return truths;
@@ -185,9 +183,8 @@ std::vector<SameFrames> experiments_of(Workbench& workbench, const TrackerConfig
     for (const std::string& database : entry.databases) {
       wanted.database = workbench.add_database(database);
       const std::string experiment = to_string(key_of(wanted));
-      if (std::ranges::count(experiments, experiment) > 0) {
+      if (std::ranges::count(experiments, experiment) > 0)
         throw Error(database, "experiment", experiment, "one not yet in the run");
-      }
       experiments.push_back(experiment);
       if (!matches(filter, experiment)) continue;
       auto group = std::ranges::find_if(groups, [&](const SameFrames& specs) {
@@ -222,9 +219,8 @@ Suite parse_suite(std::string_view text, const std::string& path) {
 Suite load_suite(const std::string& name_or_file) {
   if (name_or_file.ends_with(".json")) return parse_suite(read_file(name_or_file, kLargestSuite), name_or_file);
   const std::vector<std::string> known = suite_names();
-  if (std::ranges::count(known, name_or_file) == 0) {
+  if (std::ranges::count(known, name_or_file) == 0)
     throw Error("suites", "name", name_or_file, "a file (*.json) or " + one_of(known, name_or_file));
-  }
   const std::string path = fmt::format("{}/{}.json", suite_folder(), name_or_file);
   Suite suite = parse_suite(read_file(path, kLargestSuite), path);
   if (suite.name != name_or_file) throw Error(path, "name", suite.name, name_or_file);

@@ -32,9 +32,7 @@ Vector3d box_ray(const Matrix3Xd& vertices_camera, const PinholeCamera& camera) 
 double mean_distance(const Matrix3Xd& a, const Matrix3Xd& b, const Matrix3d& R, const Eigen::VectorXd& weights,
                      double limit) {
   double sum = 0;
-  for (Eigen::Index i = 0; i < a.cols() && sum <= limit; ++i) {
-    sum += weights[i] * (a.col(i) - R * b.col(i)).norm();
-  }
+  for (Eigen::Index i = 0; i < a.cols() && sum <= limit; ++i) sum += weights[i] * (a.col(i) - R * b.col(i)).norm();
   return sum;
 }
 
@@ -46,23 +44,20 @@ TrueNeighborSearch::TrueNeighborSearch(const HandModel& model, const Database& d
   const auto count = static_cast<double>(model.vertex_count());
   vertex_weights_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(model.vertex_count()), 1 / count);
   // A vertex on a border counts for one of its patches.
-  for (const Triangle& triangle : model.triangles()) {
+  for (const Triangle& triangle : model.triangles())
     for (const uint32_t vertex : triangle.vertices) patch_of_vertex_[vertex] = triangle.patch;
-  }
   patch_weights_ = Eigen::VectorXd::Zero(kPatchCount);
   for (const int patch : patch_of_vertex_) patch_weights_[patch] += 1 / count;
 
   for (const Posture& posture : database.posture_set().postures) {
     const PosedHand hand = model.pose(posture);
     Matrix3Xd& vertices = vertices_hand_.emplace_back(3, static_cast<Eigen::Index>(hand.vertices.size()));
-    for (size_t v = 0; v < hand.vertices.size(); ++v) {
+    for (size_t v = 0; v < hand.vertices.size(); ++v)
       vertices.col(static_cast<Eigen::Index>(v)) = hand.vertices[v].cast<double>();
-    }
     centers_hand_.push_back(patch_centers(vertices));
   }
-  for (int entry = 0; entry < database.entry_count(); ++entry) {
+  for (int entry = 0; entry < database.entry_count(); ++entry)
     R_ray_hand_.push_back(R_axis_ray(database.box_ray(entry)) * view_rotations()[Database::view(entry)]);
-  }
 }
 
 Matrix3Xd TrueNeighborSearch::patch_centers(const Matrix3Xd& vertices) const {
@@ -79,9 +74,8 @@ Matrix3Xd TrueNeighborSearch::seen_along_ray(const Posture& posture, const Eigen
   const PosedHand hand = model_.pose(posture);
   Matrix3Xd turned(
       3, static_cast<Eigen::Index>(hand.vertices.size()));  // in the camera's orientation, origin at the hand's
-  for (size_t v = 0; v < hand.vertices.size(); ++v) {
+  for (size_t v = 0; v < hand.vertices.size(); ++v)
     turned.col(static_cast<Eigen::Index>(v)) = T_camera_hand.linear() * hand.vertices[v].cast<double>();
-  }
   const Matrix3Xd vertices_camera = turned.colwise() + T_camera_hand.translation();
   return R_axis_ray(box_ray(vertices_camera, camera)) * turned;
 }

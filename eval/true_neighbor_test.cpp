@@ -61,9 +61,8 @@ TEST(TrueNeighbor, the_distance_is_the_mean_over_the_vertices) {
   turned.linear() = AngleAxisd(angle, Vector3d::UnitZ()) * turned.linear();
   const PosedHand hand = render::test_hand().pose(posture);
   double sum = 0;
-  for (const Eigen::Vector3f& vertex : hand.vertices) {
+  for (const Eigen::Vector3f& vertex : hand.vertices)
     sum += 2 * std::sin(angle / 2) * (turned.linear() * vertex.cast<double>()).head<2>().norm();
-  }
   const TrueNeighbor found = search().nearest(posture, turned, kKinect);
   EXPECT_EQ(found.entry, entry) << "the next views are 20 degrees away";
   // The hand's middle is off the axis, so its ray and its bounding square change with the turn.

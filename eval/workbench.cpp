@@ -95,12 +95,10 @@ std::string Workbench::add_database(const std::string& name_or_file) {
       say("glovebench: warning: {}: {}\n", name_or_file, doubt);
   }
   const auto& known = trajectories::posture_set_names();
-  if (!is_built && std::find(known.begin(), known.end(), postures.name) != known.end()) {
+  if (!is_built && std::find(known.begin(), known.end(), postures.name) != known.end())
     throw Error(name_or_file, "name", postures.name, "one that is not a built-in posture set's");
-  }
-  if (databases_.contains(postures.name) || postures_.contains(postures.name)) {
+  if (databases_.contains(postures.name) || postures_.contains(postures.name))
     throw Error(name_or_file, "name", postures.name, "one not yet in the run");
-  }
   if (is_built) databases_[postures.name] = built;
   if (!is_built) postures_[postures.name] = postures;
   return added_[name_or_file] = postures.name;

@@ -62,9 +62,8 @@ Context::Context() : state_(std::make_unique<State>()) {
     const std::lock_guard lock(driver());
     state_->context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
   }
-  if (!state_->context) {
+  if (!state_->context)
     throw Error("renderer", "OpenGL context", "refused by OSMesa", "an off-screen OpenGL 4.5 core context");
-  }
   try {
     make_current();
   } catch (...) {

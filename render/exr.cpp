@@ -49,10 +49,9 @@ Channels split(const std::string& path, const FrameLayers& layers) {
       channels.width = image.width();
       channels.height = image.height();
     }
-    if (image.width() != channels.width || image.height() != channels.height) {
+    if (image.width() != channels.width || image.height() != channels.height)
       throw Error(path, "layers", fmt::format("{} x {} px", image.width(), image.height()),
                   fmt::format("{} x {} px, as the first layer", channels.width, channels.height));
-    }
     return true;
   };
   const auto add_depth = [&](const char* name, const DepthImage& depth) {
@@ -81,12 +80,10 @@ Channels split(const std::string& path, const FrameLayers& layers) {
 Imf::FrameBuffer frame_buffer(Channels& channels) {
   Imf::FrameBuffer buffer;
   const auto row_bytes = static_cast<size_t>(channels.width) * 4;
-  for (auto& [name, image] : channels.floats) {
+  for (auto& [name, image] : channels.floats)
     buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(image.data()), 4, row_bytes));
-  }
-  for (auto& [name, image] : channels.integers) {
+  for (auto& [name, image] : channels.integers)
     buffer.insert(name, Imf::Slice(Imf::UINT, reinterpret_cast<char*>(image.data()), 4, row_bytes));
-  }
   return buffer;
 }
 

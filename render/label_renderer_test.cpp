@@ -45,9 +45,8 @@ CpuImages draw_on_cpu(const HandModel& model, const PosedHand& hand, const Pinho
 
 bool occurs_nearby(const LabelImage& labels, int u, int v, uint8_t label) {
   for (int dv = -1; dv <= 1; ++dv) {
-    for (int du = -1; du <= 1; ++du) {
+    for (int du = -1; du <= 1; ++du)
       if (labels.contains(u + du, v + dv) && labels(u + du, v + dv) == label) return true;
-    }
   }
   return false;
 }
@@ -94,9 +93,8 @@ TEST(LabelRenderer, DepthIsThatOfProjectedVertices) {
     // A silhouette may leave the vertex's own pixel empty, but not all around it.
     float nearest = std::numeric_limits<float>::max();
     for (int dv = -1; dv <= 1; ++dv) {
-      for (int du = -1; du <= 1; ++du) {
+      for (int du = -1; du <= 1; ++du)
         if (images.label(u + du, v + dv)) nearest = std::min(nearest, images.depth(u + du, v + dv));
-      }
     }
     EXPECT_LT(nearest, p_camera.z() + 0.001);
     // The pixel's center lies up to 0.7 px (0.7 mm) beside the vertex: on slants under 70 degrees z differs by < 2
@@ -137,10 +135,9 @@ TEST(LabelRenderer, ThreadsDrawBitForBitAsOne) {
   const PosedHand hand = test_hand().pose(test_posture());
   const auto draw = [&](int first, int step, std::vector<LabelImage>* views) {
     LabelRenderer renderer;
-    for (size_t i = first; i < views->size(); i += step) {
+    for (size_t i = first; i < views->size(); i += step)
       (*views)[i] =
           renderer.render_labels(test_hand(), hand, camera, test_pose({0, 0, 0.7}, {0.1 * i, 0.2 * i, 0}));
-    }
   };
   std::vector<LabelImage> serial(24);
   draw(0, 1, &serial);

@@ -72,12 +72,11 @@ ColorImage overlay_outline(const ColorImage& color, const LabelImage& labels, co
   };
   ColorImage picture = color;
   for (int v = 0; v < border.height(); ++v) {
-    for (int u = 0; u < border.width(); ++u) {
+    for (int u = 0; u < border.width(); ++u)
       if (border(u, v))
         picture(u, v) = line;
       else if (is_beside_border(u, v))
         picture(u, v) = {0, 0, 0};
-    }
   }
   return picture;
 }

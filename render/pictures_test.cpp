@@ -12,9 +12,8 @@ namespace {
 
 TEST(Pictures, OutlineRunsAlongBorders) {
   LabelImage labels(8, 6);
-  for (int v = 2; v < 4; ++v) {
+  for (int v = 2; v < 4; ++v)
     for (int u = 3; u < 6; ++u) labels(u, v) = 4;
-  }
   const ColorImage picture = overlay_outline(ColorImage(8, 6, Rgb{10, 20, 30}), labels);
   const Rgb white{255, 255, 255};
   EXPECT_EQ(picture(2, 2), white);
@@ -53,9 +52,8 @@ TEST(Pictures, PaletteTellsLabelsApart) {
   LabelImage labels(kColorCount + 1, 1);
   for (int i = 0; i <= kColorCount; ++i) labels(i, 0) = static_cast<uint8_t>(i);
   const ColorImage picture = picture_of_labels(labels);
-  for (int a = 0; a <= kColorCount; ++a) {
+  for (int a = 0; a <= kColorCount; ++a)
     for (int b = a + 1; b <= kColorCount; ++b) EXPECT_NE(picture(a, 0), picture(b, 0));
-  }
 }
 
 TEST(Pictures, PngReadsBackEqual) {

@@ -158,9 +158,8 @@ SurfaceMesh make_forearm(const PosedHand& hand) {
   join_rings(mesh, 0, kRings, kAround);
   // The far end is closed by a fan; the near end lies inside the glove.
   const uint32_t last_ring = (kRings - 1) * kAround;
-  for (uint32_t i = 1; i + 1 < kAround; ++i) {
+  for (uint32_t i = 1; i + 1 < kAround; ++i)
     for (const uint32_t index : {last_ring, last_ring + i, last_ring + i + 1}) mesh.indices.push_back(index);
-  }
   return mesh;
 }
 

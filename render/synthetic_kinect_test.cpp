@@ -15,9 +15,8 @@ std::shared_ptr<const HandModel> hand_of_the_device() {
 
 std::vector<HandFrame> three_frames() {
   std::vector<HandFrame> frames(3);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     frames[i] = {66'667 * i, test_posture() * (0.3 * i), test_pose({0.02 * i, 0.03, 0.7})};
-  }
   return frames;
 }
 

@@ -19,12 +19,11 @@ void add_row(Table& table, const ExperimentKey& key, const Row& cells) {
 /// The kinds that occurred in any experiment.
 std::vector<Intervention> interventions_of(const RunResult& result) {
   std::vector<Intervention> kinds;
-  for (const Intervention kind : all_values<Intervention>()) {
+  for (const Intervention kind : all_values<Intervention>())
     if (std::ranges::any_of(result.experiments, [&](const ExperimentResult& experiment) {
           return experiment.commands && experiment.commands->interventions[kind] > 0;
         }))
       kinds.push_back(kind);
-  }
   return kinds;
 }
 

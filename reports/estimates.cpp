@@ -81,9 +81,8 @@ class Line {
     const std::string_view cell = cells_[column];
     Number value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() || std::to_string(value) != cell) {
+    if (error != std::errc() || end != cell.data() + cell.size() || std::to_string(value) != cell)
       fail(column, "a whole number");
-    }
     return value;
   }
 
@@ -93,9 +92,8 @@ class Line {
     double value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     const bool is_number = error == std::errc() && end == cell.data() + cell.size() && std::abs(value) <= largest;
-    if (!is_number || number_text(column, value) != cell) {
+    if (!is_number || number_text(column, value) != cell)
       fail(column, fmt::format("a number as `run` writes it, up to {}", largest));
-    }
     return value;
   }
 
@@ -152,9 +150,8 @@ void check_order(const Line& line, const std::vector<Estimate>& before, const Es
     return;
   }
   if (estimate.frame - 1 != before.back().frame) line.fail(1, std::to_string(int64_t{before.back().frame} + 1));
-  if (estimate.timestamp_us <= before.back().timestamp_us) {
+  if (estimate.timestamp_us <= before.back().timestamp_us)
     line.fail(2, fmt::format("more than {}", before.back().timestamp_us));
-  }
 }
 
 }  // namespace

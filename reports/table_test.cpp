@@ -32,14 +32,13 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
 std::vector<std::string> csv_cells(const std::string& line) {
   std::vector<std::string> cells = {""};
   bool is_quoted = false;
-  for (const char c : line) {
+  for (const char c : line)
     if (c == '"')
       is_quoted = !is_quoted;
     else if (c == ',' && !is_quoted)
       cells.emplace_back();
     else
       cells.back() += c;
-  }
   return cells;
 }
 

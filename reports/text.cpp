@@ -36,7 +36,7 @@ void append(std::string& text, const Json& json, size_t depth) {
 
 std::string escape_html(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
+  for (const char c : text)
     if (c == '&')
       escaped += "&amp;";
     else if (c == '<')
@@ -47,7 +47,6 @@ std::string escape_html(const std::string& text) {
       escaped += "&quot;";
     else
       escaped += c;
-  }
   return escaped;
 }
 
@@ -89,25 +88,23 @@ std::string escape_markdown(const std::string& text) {
 
 std::string escape_latex(const std::string& text) {
   std::string escaped;
-  for (const char c : text) {
-    if (std::string_view("&%$#_{}").find(c) != std::string_view::npos) {
+  for (const char c : text)
+    if (std::string_view("&%$#_{}").find(c) != std::string_view::npos)
       escaped.append("\\") += c;
-    } else if (std::string_view("[]*").find(c) != std::string_view::npos) {
+    else if (std::string_view("[]*").find(c) != std::string_view::npos)
       escaped.append("{").append(1, c) += "}";  // else LaTeX takes it for an option of the \\ before it
-    } else if (c == '\\') {
+    else if (c == '\\')
       escaped += "\\textbackslash{}";
-    } else if (c == '~') {
+    else if (c == '~')
       escaped += "\\textasciitilde{}";
-    } else if (c == '^') {
+    else if (c == '^')
       escaped += "\\textasciicircum{}";
-    } else if (c == '<') {
+    else if (c == '<')
       escaped += "\\textless{}";
-    } else if (c == '>') {
+    else if (c == '>')
       escaped += "\\textgreater{}";
-    } else {
+    else
       escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
-    }
-  }
   return escaped;
 }
 

@@ -29,9 +29,8 @@ Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, co
   const std::string path = trajectory_path(data_folder, kind, name);
   Trajectory trajectory = load_trajectory(path);
   if (trajectory.name != name) throw Error(path, "name", quoted_excerpt(trajectory.name), quoted_excerpt(name));
-  if (trajectory.kind != kind) {
+  if (trajectory.kind != kind)
     throw Error(path, "kind", quoted_excerpt(to_string(trajectory.kind)), quoted_excerpt(to_string(kind)));
-  }
   return trajectory;
 }
 
@@ -40,9 +39,8 @@ Trajectory trajectory_of(const std::string& data_folder, TrajectoryKind kind, co
 std::vector<std::string> json_names(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  }
   std::ranges::sort(names);
   return names;
 }
@@ -55,9 +53,8 @@ const std::vector<std::string>& ground_truth_names() {
 std::string grasp_of(std::string_view trajectory) {
   const std::vector<std::string>& names = ground_truth_names();
   const auto found = std::ranges::find(names, trajectory);
-  if (found == names.end()) {
+  if (found == names.end())
     throw Error("ground truths", "trajectory", quoted_excerpt(trajectory), one_of(names, trajectory));
-  }
   constexpr int pinch_count = 2;  // Tr1 and Tr2 pinch, the others grasp with the whole hand
   return found - names.begin() < pinch_count ? "pinch" : "power";
 }
@@ -108,9 +105,8 @@ std::vector<std::string> script_names(const std::string& data_folder) {
 std::vector<TrajectoryListing> list_trajectories(const std::string& data_folder) {
   std::vector<TrajectoryListing> listing;
   for (const TrajectoryKind kind : {TrajectoryKind::source, TrajectoryKind::recorded}) {
-    for (const std::string& name : json_names(fs::path(data_folder) / folder_of(kind))) {
+    for (const std::string& name : json_names(fs::path(data_folder) / folder_of(kind)))
       listing.push_back({name, kind, trajectory_path(data_folder, kind, name)});
-    }
     if (listing.empty()) throw Error(data_folder, "sources", "no trajectories", "files sources/*.json");
   }
   return listing;

@@ -39,9 +39,8 @@ TEST(Catalog, lists_sources_then_recorded_by_name) {
   write_trajectory(named("a"), trajectory_path(folder, TrajectoryKind::source, "a"));
   write_trajectory(named("a"), trajectory_path(folder, TrajectoryKind::recorded, "a"));
   std::vector<std::string> listed;
-  for (const TrajectoryListing& listing : list_trajectories(folder)) {
+  for (const TrajectoryListing& listing : list_trajectories(folder))
     listed.push_back(std::string(to_string(listing.kind)) + " " + listing.name);
-  }
   EXPECT_THAT(listed, ElementsAre("source a", "source b", "recorded a"));
 }
 

@@ -37,11 +37,10 @@ std::optional<std::string_view> Lines::next() {
   ++number_;
   const size_t end = rest_->find('\n');
   std::string_view line = rest_->substr(0, end);
-  if (end == std::string_view::npos) {
+  if (end == std::string_view::npos)
     rest_.reset();
-  } else {
+  else
     rest_->remove_prefix(end + 1);
-  }
   // Tabs stay: empty cells at the end of a line lie between them.
   while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
   return line;
@@ -68,9 +67,8 @@ std::optional<double> number_in(std::string_view cell) {
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field) {
   const std::optional<double> number = number_in(cell);
-  if (!number || !(*number >= min && *number <= max)) {
+  if (!number || !(*number >= min && *number <= max))
     throw Error(where, field, quoted_excerpt(cell), fmt::format("a number from {} to {}", min, max));
-  }
   return *number;
 }
 

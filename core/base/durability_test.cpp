@@ -201,9 +201,8 @@ TEST(FileSet, is_on_the_disk_before_its_manifest_and_in_place_before_the_staging
   };
   const auto manifest = at("rename to " + folder / kManifest);
   ASSERT_LT(manifest, std::ssize(calls));
-  for (const char* staged : {"/results.json", "/tables/a.csv", "/tables/b.csv", "/tables"}) {
+  for (const char* staged : {"/results.json", "/tables/a.csv", "/tables/b.csv", "/tables"})
     EXPECT_LT(at("sync " + folder / ".staged" + staged), manifest) << staged;
-  }
   EXPECT_EQ(calls[manifest + 1], "sync " + folder.path());
   const auto placed = at("rename to " + folder / "tables/b.csv"), gone = at("remove ");
   EXPECT_LT(manifest, placed);

@@ -34,9 +34,8 @@ TEST(RandomStream, each_part_of_the_name_makes_another_stream) {
 TEST(RandomStream, neighboring_frames_are_not_correlated) {
   constexpr int kFrames = 20'000;
   double sum = 0;
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < kFrames; ++frame)
     sum += RandomStream(1, "Tr1", frame, "depth").normal() * RandomStream(1, "Tr1", frame + 1, "depth").normal();
-  }
   // The mean product of independent normals has standard deviation 1 / sqrt(20,000) = 0.0071; four of them.
   EXPECT_NEAR(sum / kFrames, 0, 0.0283);
 }

@@ -41,10 +41,9 @@ std::vector<Picture> pictures_in_folder(const std::string& folder) {
   for (const fs::directory_entry& entry : entries)
     if (is_image(entry.path())) pictures.push_back({entry.path().stem().string(), entry.path().string()});
   std::sort(pictures.begin(), pictures.end(), [](const Picture& a, const Picture& b) { return a.path < b.path; });
-  for (size_t i = 1; i < pictures.size(); ++i) {
+  for (size_t i = 1; i < pictures.size(); ++i)
     if (pictures[i].name == pictures[i - 1].name)
       throw Error(folder, "pictures", fmt::format("two of the name {}", pictures[i].name), "one of each name");
-  }
   return pictures;
 }
 

@@ -62,13 +62,11 @@ bool leave_out_misfits(const CameraFit& fit, std::vector<BoardView>& views, std:
   const double limit = misfit_limit(fit.view_errors_px);
   views.clear();
   const size_t before = left_out.size();
-  for (size_t i = 0; i < fit.views.size(); ++i) {
-    if (fit.view_errors_px[i] <= limit) {
+  for (size_t i = 0; i < fit.views.size(); ++i)
+    if (fit.view_errors_px[i] <= limit)
       views.push_back(fit.views[i]);
-    } else {
+    else
       left_out.push_back(misfit(fit.views[i].name, fit.view_errors_px[i], limit));
-    }
-  }
   return left_out.size() > before;
 }
 

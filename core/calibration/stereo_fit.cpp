@@ -94,12 +94,11 @@ void fit_pairs(StereoFit& fit, const std::vector<Pair>& pairs, const Chessboard&
 bool leave_out_misfits(StereoFit& fit, std::vector<Pair>& pairs) {
   const double limit = misfit_limit(fit.pair_errors_px);
   std::vector<Pair> fitting;
-  for (size_t i = 0; i < pairs.size(); ++i) {
+  for (size_t i = 0; i < pairs.size(); ++i)
     if (fit.pair_errors_px[i] <= limit)
       fitting.push_back(std::move(pairs[i]));
     else
       fit.left_out.push_back(misfit(pairs[i].name, fit.pair_errors_px[i], limit));
-  }
   const bool some = fitting.size() < pairs.size();
   pairs = std::move(fitting);
   return some;

@@ -23,11 +23,10 @@ class DisjointSets {
   void unite(int a, int b) {
     a = root(a);
     b = root(b);
-    if (a < b) {
+    if (a < b)
       parents_[b] = a;
-    } else {
+    else
       parents_[a] = b;
-    }
   }
 
  private:
@@ -111,11 +110,10 @@ LabeledCloud largest_component(const LabeledCloud& cloud, double depth_step) {
   size_t point = 0;
   for (int v = 0; v < kept.labels.height(); ++v) {
     for_each_nonzero(cloud.labels, v, [&](int u) {
-      if (roots[point] == largest) {
+      if (roots[point] == largest)
         kept.points.push_back(cloud.points[point]);
-      } else {
+      else
         kept.labels(u, v) = 0;
-      }
       ++point;
     });
   }

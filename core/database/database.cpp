@@ -70,9 +70,8 @@ LabelImage Database::labels(int size, int entry) const {
 
 const uint8_t* Database::fields(int size, int entry) const {
   const uint8_t* const fields = data(size).fields;
-  if (fields == nullptr) {
+  if (fields == nullptr)
     throw Error("database " + header_.postures.name, "fields", "a low-memory database", "one that stores them");
-  }
   return fields + static_cast<size_t>(entry) * size * size * kColorCount;
 }
 

@@ -34,9 +34,8 @@ void check_sizes(const std::string& name, std::span<const int> sizes) {
       throw Error(name, "tiny images", fmt::format("{} px", sizes[i]),
                   fmt::format("{} to {} px", kSmallestTinySize, kLargestTinySize));
     }
-    if (std::ranges::find(sizes.first(i), sizes[i]) != sizes.first(i).end()) {
+    if (std::ranges::find(sizes.first(i), sizes[i]) != sizes.first(i).end())
       throw Error(name, "tiny images", fmt::format("{} px twice", sizes[i]), "each size once");
-    }
   }
 }
 
@@ -66,9 +65,8 @@ DatabaseLayout layout_of(const BuildInputs& inputs, std::span<const int> sizes, 
   const auto& [postures, model, views, renderers] = inputs;
   check_sizes(postures.name, sizes);
   if (postures.postures.empty()) throw Error(postures.name, "postures", "none", "at least one");
-  if (!(views.field_cap_share > 0 && views.field_cap_share <= 1)) {
+  if (!(views.field_cap_share > 0 && views.field_cap_share <= 1))
     throw Error(postures.name, "field_cap_share", fmt::format("{}", views.field_cap_share), "above 0, at most 1");
-  }
   DatabaseHeader header{.postures = postures,
                         .side = model.side(),
                         .input_hash = Database::input_hash(postures, model, views),

@@ -22,9 +22,8 @@ class FileLock {
  public:
   explicit FileLock(const std::string& path)
       : descriptor_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644)) {
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0) {
+    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX) != 0)
       throw Error(path, "lock", std::strerror(errno), "a cache folder that can be written");
-    }
   }
   ~FileLock() { ::close(descriptor_); }
   FileLock(const FileLock&) = delete;

@@ -25,9 +25,8 @@ class SquareRenderer : public ViewRenderer {
   LabelImage render_labels(const HandModel&, const PosedHand&, const PinholeCamera& camera,
                            const Eigen::Isometry3d&) override {
     LabelImage image(camera.width, camera.height);
-    for (int v = 10; v < 40; ++v) {
+    for (int v = 10; v < 40; ++v)
       for (int u = 10; u < 40; ++u) image(u, v) = static_cast<uint8_t>(1 + u / 20);
-    }
     return image;
   }
   HandImages render_ids(const HandModel& model, const PosedHand& hand, const PinholeCamera& camera,
@@ -59,9 +58,8 @@ class DatabaseCacheTest : public testing::Test {
   }
   int database_count() const {
     int count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(cache_.folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(cache_.folder))
       count += entry.path().extension() == ".glovedb";
-    }
     return count;
   }
 

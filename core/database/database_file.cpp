@@ -100,9 +100,8 @@ DatabaseLayout::DatabaseLayout(DatabaseHeader header) : header_(std::move(header
 
 DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string& path) {
   const auto text_at = [&](size_t offset, size_t count, const std::string& what) {
-    if (offset + count > file.size()) {
+    if (offset + count > file.size())
       throw Error(path, what, fmt::format("a file of {} bytes", file.size()), "a complete file");
-    }
     return std::string(reinterpret_cast<const char*>(file.data()) + offset, count);
   };
   const std::string magic = text_at(0, std::min(kDatabaseMagic.size(), file.size()), "magic");
@@ -124,9 +123,8 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
   header_ = header_from(root, path);
   for (const auto& [name, hash] : root["hashes"].members()) hashes_[name] = hash.text();
   place(kHeaderBegin + length);
-  if (bytes_ != file.size()) {
+  if (bytes_ != file.size())
     throw Error(path, "length", fmt::format("{} bytes", file.size()), fmt::format("{} bytes", bytes_));
-  }
   std::set<std::string> names;
   for (const Section& section : sections()) names.insert(section.name());
   if (!std::ranges::equal(names, hashes_, {}, {}, [](const auto& hash) { return hash.first; }))
@@ -136,9 +134,8 @@ DatabaseLayout::DatabaseLayout(std::span<const uint8_t> file, const std::string&
 
 void DatabaseLayout::place(uint64_t header_bytes) {
   const uint64_t entries = header_.postures.postures.size() * kViewCount;
-  if (entries > std::numeric_limits<int>::max()) {
+  if (entries > std::numeric_limits<int>::max())
     throw Error(header_.postures.name, "views", fmt::format("{}", entries), "at most 2147483647");
-  }
   uint64_t end = whole_pages(header_bytes);
   const auto next = [&](Section::Kind kind, int size, uint64_t pieces, uint64_t entry_bytes) {
     const uint64_t piece_bytes = kPieceEntries * entry_bytes;

@@ -41,9 +41,8 @@ TEST(Database, holds_the_view_of_each_entry) {
     const PosedHand hand = render::test_hand().pose(entry < 756 ? Posture(Posture::Zero()) : power_posture());
     const LabelImage image = renderer.render_labels(render::test_hand(), hand, camera, T_view_hand);
     const Square square = bounding_square(image);
-    for (const int size : kTinySizes) {
+    for (const int size : kTinySizes)
       EXPECT_EQ(entry_image(database, size, entry), make_tiny_image(image, square, size)) << entry;
-    }
     EXPECT_NEAR((database.box_ray(entry) - square_ray(square, camera)).norm(), 0, 1e-12) << entry;
   }
 }
@@ -59,9 +58,8 @@ TEST(Database, no_view_of_the_hand_is_cut_off) {
     T_view_hand.linear() = view_rotations()[view];
     T_view_hand.translation().z() = 0.75;
     const LabelImage image = renderer.render_labels(render::test_hand(), hand, camera, T_view_hand);
-    for (int i = 0; i < 192; ++i) {
+    for (int i = 0; i < 192; ++i)
       ASSERT_EQ(image(i, 0) + image(i, 191) + image(0, i) + image(191, i), 0) << "view " << view;
-    }
   }
 }
 
@@ -170,9 +168,8 @@ TEST(Database, the_input_hash_knows_every_input) {
   hashes.insert(Database::input_hash(test_postures(), model, {}));
   hashes.insert(Database::input_hash(set, HandModel::load(build_paths::hand_mesh(), Side::left), {}));
   for (const ViewConfig& views : {ViewConfig{.distance = 0.76}, ViewConfig{.field_of_view_deg = 25},
-                                  ViewConfig{.image_size = 193}, ViewConfig{.field_cap_share = 0.51}}) {
+                                  ViewConfig{.image_size = 193}, ViewConfig{.field_cap_share = 0.51}})
     hashes.insert(Database::input_hash(set, model, views));
-  }
   EXPECT_EQ(hashes.size(), 10u);
 }
 

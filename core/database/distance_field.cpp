@@ -88,11 +88,9 @@ void chamfer_field_plain(const LabelImage& labels, uint8_t color, uint8_t cap, s
       relax(*p, stride, stride + 1, stride - 1, 1, p);
     }
   }
-  for (int v = 0; v < h; ++v) {
-    for (int u = 0; u < w; ++u) {
+  for (int v = 0; v < h; ++v)
+    for (int u = 0; u < w; ++u)
       field[static_cast<size_t>(v) * w + u] = static_cast<uint8_t>(d[(v + 1) * stride + u + 1]);
-    }
-  }
 }
 
 void chamfer_field(const LabelImage& labels, uint8_t color, uint8_t cap, std::span<uint8_t> field) {

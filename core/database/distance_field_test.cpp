@@ -16,9 +16,8 @@ template <typename Distance>
 double nearest(const LabelImage& labels, uint8_t color, int u, int v, Distance&& distance) {
   double best = std::numeric_limits<double>::infinity();
   for (int y = 0; y < labels.height(); ++y) {
-    for (int x = 0; x < labels.width(); ++x) {
+    for (int x = 0; x < labels.width(); ++x)
       if (labels(x, y) == color) best = std::min(best, distance(std::abs(x - u), std::abs(y - v)));
-    }
   }
   return best;
 }
@@ -41,9 +40,8 @@ std::vector<uint8_t> plain_field_of(const LabelImage& labels, uint8_t color, uin
 LabelImage random_labels(int number, int width, int height, double density) {
   RandomStream random(1, "chamfer", number, "labels");
   LabelImage labels(width, height);
-  for (uint8_t& label : labels) {
+  for (uint8_t& label : labels)
     if (random.uniform() < density) label = static_cast<uint8_t>(1 + random.index(kColorCount));
-  }
   return labels;
 }
 

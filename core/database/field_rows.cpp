@@ -92,9 +92,8 @@ RecycledVector<WeightedRow> FieldRows::rows_of(const LabelImage& query) const {
   for (int v = 0; v < query.height(); ++v) {
     const uint8_t* const labels = query.data() + static_cast<ptrdiff_t>(v) * query.width();
     uint16_t* const row_of_cells = counts.data() + static_cast<ptrdiff_t>(v / pool_) * cells_;
-    for (int u = 0; u < query.width(); ++u) {
+    for (int u = 0; u < query.width(); ++u)
       if (labels[u] != 0) ++row_of_cells[(labels[u] - 1) * cells_ * cells_ + cell_of_pixel_[u]];
-    }
   }
   RecycledVector<WeightedRow> rows;
   rows.reserve(counts.size() / 4);

@@ -24,9 +24,8 @@ int parse_number(std::string_view text, std::string_view whole) {
 
 void check_stage(const CascadeStage& stage, const Cascade& before) {
   const std::string name = fmt::format("stage {}:{}", stage.size, stage.keep);
-  if (std::find(kTinySizes.begin(), kTinySizes.end(), stage.size) == kTinySizes.end()) {
+  if (std::find(kTinySizes.begin(), kTinySizes.end(), stage.size) == kTinySizes.end())
     throw Error("cascade", name, fmt::format("size {}", stage.size), "8, 16, 32 or 64");
-  }
   if (stage.keep < 1 || stage.keep > kMaxKeep) {
     throw Error("cascade", name, fmt::format("keep {}", stage.keep),
                 fmt::format("at least 1 and at most {}", kMaxKeep));
@@ -41,9 +40,7 @@ void check_stage(const CascadeStage& stage, const Cascade& before) {
 
 TinyImages make_tiny_images(const LabelImage& labels, const Square& square, const Cascade& cascade) {
   TinyImages query;
-  for (const CascadeStage& stage : cascade) {
-    query.images.push_back(make_tiny_image(labels, square, stage.size));
-  }
+  for (const CascadeStage& stage : cascade) query.images.push_back(make_tiny_image(labels, square, stage.size));
   return query;
 }
 
@@ -91,9 +88,8 @@ Cascade parse_cascade(std::string_view text) {
 
 std::string to_string(const Cascade& cascade) {
   std::string text;
-  for (const CascadeStage& stage : cascade) {
+  for (const CascadeStage& stage : cascade)
     text += fmt::format("{}{}:{}", text.empty() ? "" : ",", stage.size, stage.keep);
-  }
   return text;
 }
 

@@ -158,11 +158,10 @@ void AddRows(const FieldRows& field_rows, std::span<const WeightedRow> rows, uin
   for (size_t b = 0; b <= last; ++b) {
     const uint8_t* const block = field_rows.data() + b * field_rows.block_bytes();
     const uint8_t* const next = b < last ? block + field_rows.block_bytes() : block;
-    if (field_rows.exact()) {
+    if (field_rows.exact())
       add_block_unweighted(block, next, rows, rows_in_a_byte, sums + b * kBlock, block_minima + b);
-    } else {
+    else
       add_block_weighted(block, next, rows, sums + b * kBlock, block_minima + b);
-    }
   }
 }
 

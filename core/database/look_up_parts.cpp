@@ -10,9 +10,8 @@ namespace glovebench {
 RecycledVector<int> glove_offsets(const LabelImage& query) {
   RecycledVector<int> offsets;
   const int pixels = static_cast<int>(query.size());
-  for (int i = 0; i < pixels; ++i) {
+  for (int i = 0; i < pixels; ++i)
     if (query[i] != 0) offsets.push_back((query[i] - 1) * pixels + i);
-  }
   return offsets;
 }
 

@@ -80,9 +80,8 @@ TEST(LookUp, distances_are_those_of_all_entries) {
   const LabelImage query = make_tiny_image(image, bounding_square(image), 16);
   const std::vector<float> all = distances(database, query);
   ASSERT_EQ(static_cast<int>(all.size()), database.entry_count());
-  for (int entry = 0; entry < database.entry_count(); ++entry) {
+  for (int entry = 0; entry < database.entry_count(); ++entry)
     ASSERT_EQ(all[entry], distance(database, entry, query)) << entry;
-  }
   EXPECT_EQ(distances(database, LabelImage(16, 16)), std::vector<float>(all.size(), 0));
 }
 
@@ -121,9 +120,8 @@ TEST(LookUp, a_stage_ranks_what_the_one_before_kept) {
   const Cascade cascade = {{8, 40}, {32, 5}};
   const TinyImages query = make_tiny_images(image, bounding_square(image), cascade);
   std::vector<std::pair<float, int>> kept;
-  for (const Match& match : look_up(database, {{query.images[0]}}, {{8, 40}})) {
+  for (const Match& match : look_up(database, {{query.images[0]}}, {{8, 40}}))
     kept.emplace_back(distance(database, match.entry, query.images[1]), match.entry);
-  }
   std::sort(kept.begin(), kept.end());
   const RecycledVector<Match> matches = look_up(database, query, cascade);
   ASSERT_EQ(matches.size(), 5u);
@@ -179,9 +177,8 @@ TEST(LookUp, a_query_without_glove_matches_nothing) {
 TEST(Cascade, is_parsed_and_written_back) {
   const Cascade papers = {{16, 500}, {64, 3}};
   EXPECT_EQ(parse_cascade("16:500,64:3"), papers);
-  for (const char* text : {"8:1", "64:3", "8:2000,16:500,32:50,64:3", "64:3,64:3", "64:100000000"}) {
+  for (const char* text : {"8:1", "64:3", "8:2000,16:500,32:50,64:3", "64:3,64:3", "64:100000000"})
     EXPECT_EQ(to_string(parse_cascade(text)), text);
-  }
 }
 
 TEST(Cascade, exact_means_the_largest_images_alone) {
@@ -194,12 +191,10 @@ TEST(Cascade, exact_means_the_largest_images_alone) {
 
 TEST(Cascade, refuses_what_is_malformed_or_impossible_and_says_why) {
   for (const char* text : {"", "64", "64:", ":3", "64:3,", ",64:3", "64:3,,64:2", "64:3;16:2", "64:three", "64:3.5",
-                           " 64:3", "64:3 ", "64:+3", "64:3:2", "0x40:3", "64:99999999999999999999"}) {
+                           " 64:3", "64:3 ", "64:+3", "64:3:2", "0x40:3", "64:99999999999999999999"})
     EXPECT_THAT([&] { parse_cascade(text); }, ThrowsMessage<Error>(HasSubstr("such as 16:500,64:3"))) << text;
-  }
-  for (const char* text : {"12:5", "0:5", "-8:5", "128:3", "2147483647:1"}) {
+  for (const char* text : {"12:5", "0:5", "-8:5", "128:3", "2147483647:1"})
     EXPECT_THAT([&] { parse_cascade(text); }, ThrowsMessage<Error>(HasSubstr("8, 16, 32 or 64"))) << text;
-  }
   EXPECT_THAT([] { parse_cascade("64:0"); }, ThrowsMessage<Error>(HasSubstr("found keep 0")));
   EXPECT_THAT([] { parse_cascade("64:-3"); }, ThrowsMessage<Error>(HasSubstr("found keep -3")));
   EXPECT_THAT([] { parse_cascade("64:100000001"); }, ThrowsMessage<Error>(HasSubstr("at most 100000000")));

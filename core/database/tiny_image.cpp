@@ -25,9 +25,8 @@ CellRange cell_range(int cell, int side, int size) {
 template <typename Counts>
 uint8_t winner(const Counts& votes, int unlabeled) {
   int best = 1;
-  for (int label = 2; label <= kColorCount; ++label) {
+  for (int label = 2; label <= kColorCount; ++label)
     if (votes[label] > votes[best]) best = label;
-  }
   return votes[best] > 0 && votes[best] >= unlabeled ? static_cast<uint8_t>(best) : uint8_t{0};
 }
 
@@ -107,11 +106,9 @@ LabelImage make_tiny_image_plain(const LabelImage& labels, const Square& square,
     for (int cu = 0; cu < size; ++cu) {
       const CellRange columns = cell_range(cu, square.side, size);
       std::array<int, kColorCount + 1> votes{};
-      for (int v = square.top + rows.first; v < square.top + rows.last; ++v) {
-        for (int u = square.left + columns.first; u < square.left + columns.last; ++u) {
+      for (int v = square.top + rows.first; v < square.top + rows.last; ++v)
+        for (int u = square.left + columns.first; u < square.left + columns.last; ++u)
           ++votes[labels.contains(u, v) ? labels(u, v) : 0];
-        }
-      }
       tiny(cu, cv) = winner(votes, votes[0]);
     }
   }

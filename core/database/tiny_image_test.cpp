@@ -49,9 +49,8 @@ TEST(TinyImage, does_not_depend_on_where_the_hand_is) {
       b(61 + u, 47 + v) = label;
     }
   }
-  for (const int size : kTinySizes) {
+  for (const int size : kTinySizes)
     EXPECT_EQ(make_tiny_image(a, bounding_square(a), size), make_tiny_image(b, bounding_square(b), size));
-  }
 }
 
 /// Blobs of every label, with single pixels among them.
@@ -62,11 +61,9 @@ LabelImage random_labels(RandomStream& random, int width, int height) {
     const int left = below(width), top = below(height), right = left + 1 + below(width / 3),
               bottom = top + 1 + below(height / 3);
     const auto label = static_cast<uint8_t>(below(kColorCount + 1));
-    for (int v = top; v < std::min(bottom, height); ++v) {
-      for (int u = left; u < std::min(right, width); ++u) {
+    for (int v = top; v < std::min(bottom, height); ++v)
+      for (int u = left; u < std::min(right, width); ++u)
         labels(u, v) = random.uniform(0, 1) < 0.9 ? label : static_cast<uint8_t>(below(kColorCount + 1));
-      }
-    }
   }
   return labels;
 }
@@ -75,9 +72,8 @@ TEST(TinyImage, bounding_square_holds_every_labeled_pixel_and_touches_the_outerm
   for (int i = 0; i < 200; ++i) {
     RandomStream random(1, "tiny image test", i, "square");
     LabelImage labels(3 + i % 41, 2 + i % 23);
-    for (int pixel = 0; pixel < 1 + i % 7; ++pixel) {
+    for (int pixel = 0; pixel < 1 + i % 7; ++pixel)
       labels[static_cast<size_t>(random.uniform(0, static_cast<double>(labels.size())))] = 10;
-    }
     int left = labels.width(), right = -1, top = labels.height(), bottom = -1;
     for (int v = 0; v < labels.height(); ++v) {
       for (int u = 0; u < labels.width(); ++u) {
@@ -98,11 +94,9 @@ TEST(TinyImage, fast_equals_plain) {
     const LabelImage labels = random_labels(random, 40 + i, 140 - i);
     // Around the hand, then smaller than the tiny images, then over each border and far outside.
     for (const Square& square : {bounding_square(labels), Square{7, 5, 1 + i % 6}, Square{-30, -20, 71},
-                                 Square{20, 30, 200}, Square{500, 3, 40}, Square{-90, 3, 40}, Square{0, 0, 0}}) {
-      for (const int size : kTinySizes) {
+                                 Square{20, 30, 200}, Square{500, 3, 40}, Square{-90, 3, 40}, Square{0, 0, 0}})
+      for (const int size : kTinySizes)
         ASSERT_EQ(make_tiny_image(labels, square, size), make_tiny_image_plain(labels, square, size)) << i;
-      }
-    }
   }
 }
 

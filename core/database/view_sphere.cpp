@@ -42,17 +42,12 @@ std::vector<Eigen::Vector3d> camera_directions() {
   const std::array<Eigen::Vector3d, 12> corners = icosahedron();
   std::vector<Eigen::Vector3d> directions(corners.begin(), corners.end());
   double shortest = 2;
+  for (size_t i = 0; i < corners.size(); ++i)
+    for (size_t j = i + 1; j < corners.size(); ++j) shortest = std::min(shortest, (corners[i] - corners[j]).norm());
   for (size_t i = 0; i < corners.size(); ++i) {
-    for (size_t j = i + 1; j < corners.size(); ++j) {
-      shortest = std::min(shortest, (corners[i] - corners[j]).norm());
-    }
-  }
-  for (size_t i = 0; i < corners.size(); ++i) {
-    for (size_t j = i + 1; j < corners.size(); ++j) {
-      if ((corners[i] - corners[j]).norm() < 1.01 * shortest) {
+    for (size_t j = i + 1; j < corners.size(); ++j)
+      if ((corners[i] - corners[j]).norm() < 1.01 * shortest)
         directions.push_back((corners[i] + corners[j]).normalized());
-      }
-    }
   }
   check(directions.size() == kCameraPositions, "an icosahedron has 12 corners and 30 edges");
   return directions;

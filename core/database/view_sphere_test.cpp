@@ -17,9 +17,8 @@ TEST(ViewSphere, has_42_directions_spread_over_the_whole_sphere) {
     EXPECT_NEAR(directions[i].norm(), 1, 1e-12);
     sum += directions[i];
     double nearest = 10;
-    for (size_t j = 0; j < directions.size(); ++j) {
+    for (size_t j = 0; j < directions.size(); ++j)
       if (j != i) nearest = std::min(nearest, std::acos(directions[i].dot(directions[j])));
-    }
     // An icosahedron's edge spans atan(2) = 63.43 degrees; each is halved.
     EXPECT_NEAR(degrees_from_radians(nearest), 63.4349 / 2, 1e-3);
   }
@@ -34,11 +33,9 @@ TEST(ViewSphere, has_756_distinct_proper_rotations) {
     EXPECT_NEAR(R.determinant(), 1, 1e-12);
   }
   double least = 10;
-  for (size_t i = 0; i < rotations.size(); ++i) {
-    for (size_t j = i + 1; j < rotations.size(); ++j) {
+  for (size_t i = 0; i < rotations.size(); ++i)
+    for (size_t j = i + 1; j < rotations.size(); ++j)
       least = std::min(least, Eigen::AngleAxisd(rotations[i].transpose() * rotations[j]).angle());
-    }
-  }
   EXPECT_GT(degrees_from_radians(least), 19.9);  // the step about the optical axis; no two views are nearer
 }
 

@@ -27,9 +27,8 @@ std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh) {
         (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     for (const uint32_t v : t) normals[v] += normal;
   }
-  for (Eigen::Vector3d& n : normals) {
+  for (Eigen::Vector3d& n : normals)
     if (n.norm() > 0) n.normalize();
-  }
   return normals;
 }
 
@@ -90,9 +89,8 @@ class PatchCutter {
     for (size_t i = 0; i < vertices.size(); ++i) {
       p += shares[i] * mesh_.vertices[vertices[i]];
       const Influence& influence = mesh_.influences[vertices[i]];
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < 4; ++k)
         weights[influence.joint[k]] += static_cast<float>(shares[i]) * influence.weight[k];
-      }
     }
     return add_vertex(p, weights);
   }
@@ -147,9 +145,8 @@ class PatchCutter {
     const auto score = [&](int patch) {
       return b[0] * scores_[t[0]][patch] + b[1] * scores_[t[1]][patch] + b[2] * scores_[t[2]][patch];
     };
-    for (int other = 0; other < kPatchCount; ++other) {
+    for (int other = 0; other < kPatchCount; ++other)
       if (other != g && other != h && other != i && score(other) > score(g)) return {};
-    }
     return b;
   }
 

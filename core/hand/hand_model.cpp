@@ -114,9 +114,8 @@ HandModel HandModel::load(const std::string& mesh_path, Side side, const HandSha
   model.influences_ = std::move(glove.influences);
   model.triangles_ = std::move(glove.triangles);
   model.bind(std::move(glove.vertices), mesh.T_mesh_joint);
-  if (side == Side::left) {
+  if (side == Side::left)
     for (Triangle& t : model.triangles_) std::swap(t.vertices[1], t.vertices[2]);
-  }
   return model;
 }
 
@@ -148,9 +147,8 @@ std::string HandModel::make_hash(const JointPoses& T_hand_joint) const {
     append(bytes, t.label);
     append(bytes, t.patch);
   }
-  for (const Eigen::Isometry3d& T : T_hand_joint) {
+  for (const Eigen::Isometry3d& T : T_hand_joint)
     bytes.append(reinterpret_cast<const char*>(T.matrix().data()), 16 * sizeof(double));
-  }
   return hash_text(bytes);
 }
 
@@ -158,16 +156,14 @@ PosedHand HandModel::pose(const Posture& posture) const {
   PosedHand hand;
   hand.T_hand_joint = skeleton_.pose(posture);
   std::array<Eigen::Matrix<double, 3, 4>, kJointCount> skinning;
-  for (int j = 0; j < kJointCount; ++j) {
+  for (int j = 0; j < kJointCount; ++j)
     skinning[j] = (hand.T_hand_joint[j] * T_joint_bind_[j]).matrix().topRows<3>();
-  }
   hand.vertices.reserve(bind_vertices_.size());
   for (size_t v = 0; v < bind_vertices_.size(); ++v) {
     const Influence& influence = influences_[v];
     Eigen::Matrix<double, 3, 4> blended = skinning[influence.joint[0]] * double{influence.weight[0]};
-    for (int i = 1; i < 4 && influence.weight[i] > 0; ++i) {
+    for (int i = 1; i < 4 && influence.weight[i] > 0; ++i)
       blended += skinning[influence.joint[i]] * double{influence.weight[i]};
-    }
     hand.vertices.push_back((blended * bind_vertices_[v].homogeneous()).cast<float>());
   }
   if (side_ == Side::left) {

@@ -111,9 +111,8 @@ RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape) {
   for (size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Influence& influence = mesh.influences[v];
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; ++i)
       p += static_cast<double>(influence.weight[i]) * (T_new_old[influence.joint[i]] * mesh.vertices[v]);
-    }
     result.vertices[v] = shape.sizes[kScale] * p;
   }
   for (Eigen::Isometry3d& T : result.T_mesh_joint) T.translation() *= shape.sizes[kScale];

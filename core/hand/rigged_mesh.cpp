@@ -94,13 +94,11 @@ bool is_cap(const RiggedMesh& mesh, const std::array<uint32_t, 3>& t, double z_w
 /// The opening's vertices in the order in which the removed triangles' side lists them.
 std::vector<uint32_t> boundary_loop(const std::vector<std::array<uint32_t, 3>>& triangles) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
-  for (const auto& t : triangles) {
+  for (const auto& t : triangles)
     for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-  }
   std::map<uint32_t, uint32_t> next;  // against the direction of the triangle that has the edge
-  for (const auto& [edge, count] : edges) {
+  for (const auto& [edge, count] : edges)
     if (!edges.contains({edge.second, edge.first})) next[edge.second] = edge.first;
-  }
   check(!next.empty(), "removing the cap opens the mesh");
   std::vector<uint32_t> loop;
   uint32_t v = next.begin()->first;
@@ -136,18 +134,15 @@ void close_ring(RiggedMesh& mesh, const std::vector<uint32_t>& ring) {
   const auto middle = static_cast<uint32_t>(mesh.vertices.size());
   mesh.vertices.push_back(center);
   mesh.influences.push_back(mesh.influences[ring.front()]);
-  for (size_t i = 0; i < ring.size(); ++i) {
-    mesh.triangles.push_back({ring[i], ring[(i + 1) % ring.size()], middle});
-  }
+  for (size_t i = 0; i < ring.size(); ++i) mesh.triangles.push_back({ring[i], ring[(i + 1) % ring.size()], middle});
 }
 
 Influence blended(const Influence& influence, double forearm_share) {
   if (forearm_share <= 0) return influence;
   // The forearm takes the slot of the weakest influence.
   int weakest = 0;
-  for (int i = 1; i < 4; ++i) {
+  for (int i = 1; i < 4; ++i)
     if (influence.weight[i] < influence.weight[weakest]) weakest = i;
-  }
   Influence result = influence;
   result.weight[weakest] = 0;
   const float rest = result.weight[0] + result.weight[1] + result.weight[2] + result.weight[3];
@@ -162,26 +157,23 @@ Influence blended(const Influence& influence, double forearm_share) {
 
 float Influence::weight_of(int j) const {
   float sum = 0;
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 4; ++i)
     if (joint[i] == j) sum += weight[i];
-  }
   return sum;
 }
 
 RiggedMesh load_rigged_mesh(const std::string& path) {
   const std::string content = read_file(path, kLargestMesh);
   const std::string hash = hash_text(content);
-  if (hash != kRiggedMeshHash) {
+  if (hash != kRiggedMeshHash)
     throw Error(path, "checksum", hash, std::string(kRiggedMeshHash) + " (generic-hand/right.glb; run ci/setup)");
-  }
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TEXCOORDS | aiComponent_MATERIALS);
   const aiScene* scene = importer.ReadFileFromMemory(
       content.data(), content.size(), aiProcess_JoinIdenticalVertices | aiProcess_RemoveComponent, "glb");
-  if (scene == nullptr || scene->mNumMeshes != 1) {
+  if (scene == nullptr || scene->mNumMeshes != 1)
     throw Error(path, "mesh", importer.GetErrorString(), "one rigged mesh in glTF binary format");
-  }
   RiggedMesh mesh = convert(*scene);
   for (int j = 0; j < kForearmJoint; ++j) {
     const aiNode* node = scene->mRootNode->FindNode(joint_name(j).c_str());
@@ -195,9 +187,8 @@ RiggedMesh with_forearm(const RiggedMesh& hand, double length) {
   const double z_wrist = hand.T_mesh_joint[kWristJoint].translation().z();
   RiggedMesh mesh = hand;
   mesh.triangles.clear();
-  for (const auto& t : hand.triangles) {
+  for (const auto& t : hand.triangles)
     if (!is_cap(hand, t, z_wrist)) mesh.triangles.push_back(t);
-  }
   const std::vector<uint32_t> opening = boundary_loop(mesh.triangles);
 
   double z_opening = z_wrist;

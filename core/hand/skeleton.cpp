@@ -73,9 +73,8 @@ Decomposition decompose(const Eigen::Matrix3d& R) {
 const std::string& joint_name(int joint) { return entries().at(joint).name; }
 
 int joint_index(const std::string& webxr_name) {
-  for (int j = 0; j < kJointCount; ++j) {
+  for (int j = 0; j < kJointCount; ++j)
     if (entries()[j].name == webxr_name) return j;
-  }
   throw Error("joint", "name", webxr_name, "a WebXR hand joint");
 }
 
@@ -89,9 +88,8 @@ const std::array<int, kJointCount>& joint_parents() {
 }
 
 int joint_of_angle(int angle) {
-  for (int j = 0; j < kJointCount; ++j) {
+  for (int j = 0; j < kJointCount; ++j)
     if (entries()[j].abduction == angle || entries()[j].flexion == angle) return j;
-  }
   throw std::out_of_range("joint_of_angle: no such angle");
 }
 

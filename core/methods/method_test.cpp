@@ -102,12 +102,10 @@ TEST(Monocular, takes_the_largest_of_several_blobs) {
   // A stain of a glove color in the corner, as large as the corner allows without touching the hand.
   DeviceFrame stained = shot.frame;
   Rgb glove{};
-  for (size_t i = 0; i < shot.rgb_labels.size(); ++i) {
+  for (size_t i = 0; i < shot.rgb_labels.size(); ++i)
     if (shot.rgb_labels[i] != 0 && test_color_table().label(shot.frame.color[i]) != 0) glove = shot.frame.color[i];
-  }
-  for (int v = 10; v < 30; ++v) {
+  for (int v = 10; v < 30; ++v)
     for (int u = 10; u < 30; ++u) stained.color(u, v) = glove;
-  }
   EXPECT_EQ(estimate_line(0, make("monocular_bbox")->track(stained)),
             estimate_line(0, make("monocular_bbox")->track(shot.frame)));
 }

@@ -31,9 +31,8 @@ Blob largest_blob(LabelImage labels) {
     largest = component;
   }
   for (int v = 0; v < labels.height(); ++v) {
-    for (int u = 0; u < labels.width(); ++u) {
+    for (int u = 0; u < labels.width(); ++u)
       if (components.at<int>(v, u) != largest) labels(u, v) = 0;
-    }
   }
   blob.labels = std::move(labels);
   return blob;
@@ -68,9 +67,8 @@ TrackResult MonocularBbox::estimate(const ColorImage& color, const StageObserver
   observe(Stage::detection);
   const Blob blob = largest_blob(std::move(labels));
   if (blob.pixels < in_.config.detection.min_pixels) return result.status = TrackStatus::no_hand, result;
-  if (is_cut_by_border(blob.labels, blob.pixels, in_.config.detection)) {
+  if (is_cut_by_border(blob.labels, blob.pixels, in_.config.detection))
     return result.status = TrackStatus::cut_by_border, result;
-  }
 
   HandLookUp found = look_up_hand(blob.labels, in_.calibration.rgb, *in_.database, in_.config.lookup, observe);
   result.matches = std::move(found.matches);

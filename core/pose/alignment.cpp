@@ -11,9 +11,8 @@ namespace {
 RecycledVector<LabeledPoint> points_to_align(std::span<const LabeledPoint> cloud, const IcpConfig& config) {
   RecycledVector<LabeledPoint> points = config.subsampling_factor > 0 ? every_nth(cloud, config.subsampling_factor)
                                                                       : subsample(cloud, config.max_points);
-  if (!config.color_sensitive) {
+  if (!config.color_sensitive)
     for (LabeledPoint& point : points) point.label = Surface::kAnyColor;
-  }
   return points;
 }
 
@@ -46,9 +45,7 @@ Alignment align(const HandModel& model, const PosedHand& hand, std::span<const L
                 const Eigen::Isometry3d& T_camera_hand_coarse, const IcpConfig& config) {
   const AlignmentEntry& alignment = find_in(alignments(), config.algorithm, "alignment", "name");
   RecycledVector<LabeledPoint> points = points_to_align(cloud, config);
-  if (points.size() < 3) {
-    return {.T_camera_hand = T_camera_hand_coarse, .points = static_cast<int>(points.size())};
-  }
+  if (points.size() < 3) return {.T_camera_hand = T_camera_hand_coarse, .points = static_cast<int>(points.size())};
   return alignment.align(model, hand, std::move(points), T_camera_hand_coarse, config);
 }
 

@@ -83,9 +83,8 @@ Eigen::Vector3f closest_on_triangle(const Eigen::Vector3f& p, const Surface::Fac
   const float vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return face.a + d2 / (d2 - d6) * ac;
   const float va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
     return face.b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (face.c - face.b);
-  }
   const float scale = 1 / (va + vb + vc);
   return face.a + ab * (vb * scale) + ac * (vc * scale);
 }

@@ -226,9 +226,8 @@ HWY_EXPORT(LaneCount);
 }  // namespace
 
 void ClosestPointSearch::keep_nearest_as_triangles() {
-  for (PointGroup& group : groups_) {
+  for (PointGroup& group : groups_)
     for (int i = 0; i < group.nearest_count; ++i) group.nearest[i] = triangles_[group.label][group.nearest[i]];
-  }
 }
 
 void ClosestPointSearch::find_nearest_of_triangles(const Surface& surface) {

@@ -23,9 +23,8 @@ Eigen::Vector3f point_within(RandomStream& random, double reach) {
 Points points_of_all_labels(int count) {
   RandomStream random(1, "closest", 0, "points");
   Points points;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i)
     points.push_back({point_within(random, 0.12), static_cast<uint8_t>(1 + random.index(kColorCount))});
-  }
   return points;
 }
 

@@ -39,9 +39,8 @@ std::optional<Eigen::Isometry3d> align_points(std::span<const Eigen::Vector3f> f
 
   Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
   const Eigen::Vector3f *a = from.data(), *b = to.data();  // hardened builds check every index of a span
-  for (size_t i = 0; i < from.size(); ++i) {
+  for (size_t i = 0; i < from.size(); ++i)
     S += (a[i].cast<double>() - center_from) * (b[i].cast<double>() - center_to).transpose();
-  }
   Eigen::Matrix4d N;  // Horn 1987, section 4.A; quaternion order w, x, y, z
   N << S.trace(), S(1, 2) - S(2, 1), S(2, 0) - S(0, 2), S(0, 1) - S(1, 0),                   //
       S(1, 2) - S(2, 1), S(0, 0) - S(1, 1) - S(2, 2), S(0, 1) + S(1, 0), S(2, 0) + S(0, 2),  //

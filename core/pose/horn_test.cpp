@@ -10,9 +10,8 @@ namespace {
 std::vector<Eigen::Vector3f> cloud(int count) {
   RandomStream random(1, "horn", 0, "points");
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i)
     points.emplace_back(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.6, 0.8));
-  }
   return points;
 }
 

@@ -11,9 +11,8 @@ constexpr double kAmbiguousSpread = radians_from_degrees(60);
 
 bool spread_exceeds(std::span<const Eigen::Quaterniond> rotations, double limit) {
   for (size_t i = 0; i < rotations.size(); ++i) {
-    for (size_t j = i + 1; j < rotations.size(); ++j) {
+    for (size_t j = i + 1; j < rotations.size(); ++j)
       if (rotations[i].angularDistance(rotations[j]) > limit) return true;
-    }
   }
   return false;
 }

@@ -109,11 +109,10 @@ std::optional<RobotCommand> CommandGuard::guard(const RobotCommand& command, int
     return std::nullopt;
   }
   become(state_at(now_us));
-  if (is_stale(command) && state_ != CommandState::stopped) {
+  if (is_stale(command) && state_ != CommandState::stopped)
     note(Intervention::stale);
-  } else {
+  else
     take(command, now_us);
-  }
   return send(now_us);
 }
 
@@ -129,11 +128,10 @@ RobotCommand CommandGuard::send(int64_t now_us) {
     const double seconds =
         now_us_ ? std::min(seconds_between(*now_us_, now_us), limits_.longest_step_s) : limits_.longest_step_s;
     Interventions done;
-    if (arm_) {
+    if (arm_)
       sent_ = moved_by_arm(*arm_, sent_.value(), *goal_, seconds, limits_, part_, done);
-    } else {
+    else
       sent_ = sent_ ? moved_towards(*sent_, *goal_, seconds, limits_, part_, done) : *goal_;
-    }
     pending_.add(done);
     total_.add(done);
   }

@@ -196,13 +196,12 @@ void run_stream(uint64_t seed, Tally& tally) {
   const bool has_clock = seed % 2 == 0;
   for (int i = 0; i < kInputsPerStream; ++i, ++tally.inputs) {
     std::optional<RobotCommand> sent;
-    if (has_clock && sender.dies()) {
+    if (has_clock && sender.dies())
       sent = guard.tick(sender.next_time());
-    } else if (has_clock) {
+    else if (has_clock)
       sent = guard.guard(sender.next_command(), sender.next_time());
-    } else {
+    else
       sent = guard.guard(sender.next_command());
-    }
     if (!sent) continue;
     ASSERT_EQ(checker.problem(*sent), "") << "stream " << seed << ", input " << i;
     ++tally.sent;

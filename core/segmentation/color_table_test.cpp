@@ -67,9 +67,8 @@ TEST(ColorTable, LooksUpInItsOwnSpace) {
   EXPECT_EQ(ColorTable(cells, ColorSpace::rgb).label(color), 3);
   EXPECT_EQ(ColorTable(cells, ColorSpace::yuv).label(color), 0);
   EXPECT_EQ(ColorTable(cells).space(), ColorSpace::yuv);
-  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb}) {
+  for (const ColorSpace space : {ColorSpace::yuv, ColorSpace::rgb})
     EXPECT_EQ(from_name<ColorSpace>(to_string(space)), space);
-  }
   EXPECT_EQ(from_name<ColorSpace>("hsv"), std::nullopt);
 }
 

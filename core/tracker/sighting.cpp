@@ -30,9 +30,8 @@ Sighting see_in(DepthImage depth, const ColorImage& color, const RgbdCalibration
 
   observe(Stage::cloud);
   seen.cloud = build_cloud(seen.depth, seen.labels, calibration.ir, config.volume);
-  if (config.segmentation.largest_component) {
+  if (config.segmentation.largest_component)
     seen.cloud = largest_component(seen.cloud, config.detection.component_depth_step);
-  }
   seen.status = detect(seen.cloud, config.detection);
   return seen;
 }
@@ -64,9 +63,8 @@ bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const Detec
 }
 
 TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
-  if (static_cast<int>(cloud.points.size()) < config.min_pixels) {
+  if (static_cast<int>(cloud.points.size()) < config.min_pixels)
     return cloud.labeled_outside >= config.min_pixels ? TrackStatus::outside_volume : TrackStatus::no_hand;
-  }
   // With a third of the glove cut off, the rest would be matched as a whole hand.
   if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
   if (is_cut_by_border(cloud.labels, cloud.points.size(), config)) return TrackStatus::cut_by_border;

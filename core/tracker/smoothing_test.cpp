@@ -38,9 +38,8 @@ TEST(Smoothing, reproduces_the_steps_of_the_papers_figure_5) {
   // 14.2984, 25.0216, 33.0639: a grasp 57.19 degrees away is approached by a quarter a frame.
   Sequence smoother;
   smoother.smooth(measured(0, 0));
-  for (const double printed : {14.2984, 25.0216, 33.0639}) {
+  for (const double printed : {14.2984, 25.0216, 33.0639})
     EXPECT_NEAR(smoother.smooth(measured(57.19, 0)).posture[0], printed, 0.002);
-  }
 }
 
 TEST(Smoothing, leaves_the_pose_unless_configured) {

@@ -62,12 +62,10 @@ inline Shot shoot(const Eigen::Isometry3d& T_camera_hand, const Posture& posture
 /// If the gloves do not overlap.
 inline DeviceFrame with_second_glove(const Shot& first, const Shot& second) {
   DeviceFrame frame = first.frame;
-  for (size_t i = 0; i < frame.raw_disparity.size(); ++i) {
+  for (size_t i = 0; i < frame.raw_disparity.size(); ++i)
     if (second.ir_labels[i] != 0) frame.raw_disparity[i] = second.frame.raw_disparity[i];
-  }
-  for (size_t i = 0; i < frame.color.size(); ++i) {
+  for (size_t i = 0; i < frame.color.size(); ++i)
     if (second.rgb_labels[i] != 0) frame.color[i] = second.frame.color[i];
-  }
   return frame;
 }
 

@@ -96,9 +96,8 @@ TrackResult Tracker::estimate(const DeviceFrame& frame, const StageObserver& obs
   result.icp_iterations = alignment.iterations;
   result.icp_residual = alignment.residual;
   result.status = status_of(alignment.status);
-  if (result.status == TrackStatus::tracked && alignment.residual > config_.max_residual) {
+  if (result.status == TrackStatus::tracked && alignment.residual > config_.max_residual)
     result.status = TrackStatus::poor_alignment;
-  }
   return result;
 }
 

@@ -136,15 +136,14 @@ void visit_fields(Config& c, Each&& each) {
 template <typename Value>
 void read(Value& value, const JsonCursor& json, const Range&) {
   using Limits = std::numeric_limits<int>;
-  if constexpr (Named<Value>) {
+  if constexpr (Named<Value>)
     value = json.one_of<Value>();
-  } else if constexpr (std::is_same_v<Value, bool>) {
+  else if constexpr (std::is_same_v<Value, bool>)
     value = json.boolean();
-  } else if constexpr (std::is_same_v<Value, int>) {
+  else if constexpr (std::is_same_v<Value, int>)
     value = static_cast<int>(json.integer(Limits::min(), Limits::max()));
-  } else {
+  else
     value = json.number();
-  }
 }
 void read(std::string& value, const JsonCursor& json, const Names& names) {
   if (!json.is_text()) json.fail(fmt::format("one of {}", fmt::join(names.known, ", ")));

@@ -53,15 +53,13 @@ TEST(Tracker, tells_its_stages_and_what_they_made) {
 }
 
 TEST(Tracker, no_hand_in_view) {
-  for (const Eigen::Vector3d& away : {Eigen::Vector3d(0.6, 0, 0.6), Eigen::Vector3d(0, -0.5, 0.6)}) {
+  for (const Eigen::Vector3d& away : {Eigen::Vector3d(0.6, 0, 0.6), Eigen::Vector3d(0, -0.5, 0.6)})
     EXPECT_EQ(status_of(shoot(test_pose(away)).frame), TrackStatus::no_hand);
-  }
 }
 
 TEST(Tracker, a_hand_before_or_beyond_the_working_volume) {
-  for (const double z : {0.30, 0.35, 1.0, 1.03}) {
+  for (const double z : {0.30, 0.35, 1.0, 1.03})
     EXPECT_EQ(status_of(shoot(test_pose({0.02, 0.03, z})).frame), TrackStatus::outside_volume) << z;
-  }
 }
 
 TEST(Tracker, a_hand_that_reaches_out_of_the_working_volume_is_not_tracked_by_a_rest_of_it) {
@@ -85,9 +83,8 @@ TEST(Tracker, a_hand_that_reaches_out_of_the_working_volume_is_not_tracked_by_a_
 
 TEST(Tracker, a_hand_cut_by_the_image_border) {
   for (const Eigen::Vector3d& position : {Eigen::Vector3d(0.33, 0, 0.6), Eigen::Vector3d(-0.34, 0, 0.6),
-                                          Eigen::Vector3d(0, 0.23, 0.6), Eigen::Vector3d(0, -0.24, 0.6)}) {
+                                          Eigen::Vector3d(0, 0.23, 0.6), Eigen::Vector3d(0, -0.24, 0.6)})
     EXPECT_EQ(status_of(shoot(test_pose(position, {0.1, 0.2, 0.3})).frame), TrackStatus::cut_by_border);
-  }
 }
 
 TEST(Tracker, a_finger_that_reaches_into_the_image_is_no_hand) {
@@ -137,9 +134,8 @@ TEST(Tracker, few_glove_pixels_are_no_hand) {
   for (const int left : {0, 1, 2, 3, 100, 140}) {
     DeviceFrame frame = shot.frame;
     int count = 0;
-    for (size_t i = 0; i < frame.raw_disparity.size(); ++i) {
+    for (size_t i = 0; i < frame.raw_disparity.size(); ++i)
       if (shot.ir_labels[i] == 0 || ++count > left) frame.raw_disparity[i] = 2047;
-    }
     EXPECT_EQ(status_of(frame), TrackStatus::no_hand) << left;
   }
 }
@@ -151,11 +147,8 @@ TEST(Tracker, a_single_row_of_points_is_never_tracked) {
   const Shot shot = shoot(test_pose({0.02, 0.03, 0.7}, {0, 0, 0}));
   for (int row = 0; row < 480; row += 6) {
     DeviceFrame frame = shot.frame;
-    for (int v = 0; v < 480; ++v) {
-      for (int u = 0; u < 640; ++u) {
-        frame.raw_disparity(u, v) = v == row && shot.ir_labels(u, v) != 0 ? 600 : 2047;
-      }
-    }
+    for (int v = 0; v < 480; ++v)
+      for (int u = 0; u < 640; ++u) frame.raw_disparity(u, v) = v == row && shot.ir_labels(u, v) != 0 ? 600 : 2047;
     EXPECT_NE(make_tracker(config).track(frame).status, TrackStatus::tracked) << row;
   }
 }
@@ -207,9 +200,8 @@ TEST(Tracker, garbage_frames_give_a_status) {
     const uint16_t surface = depth == 0 ? 2047 : depth == 1 ? 0 : static_cast<uint16_t>(random.index(1084));
     const Rgb one = {static_cast<uint8_t>(random.index(256)), static_cast<uint8_t>(random.index(256)),
                      static_cast<uint8_t>(random.index(256))};
-    for (uint16_t& raw : frame.raw_disparity) {
+    for (uint16_t& raw : frame.raw_disparity)
       raw = depth < 3 ? surface : static_cast<uint16_t>(random.index(depth == 3 ? 2048 : 65536));
-    }
     for (Rgb& rgb : frame.color) {
       const uint64_t bits = random.bits();
       rgb = color == 0 ? one

@@ -31,9 +31,8 @@ struct CalibrateNoise {
     common.check_output_folder();
     std::vector<reports::NoiseFloor> floors;
     for (const std::string& run : runs) floors.push_back(measure_run(load_finished_run(run).results));
-    if (runs.empty()) {
+    if (runs.empty())
       for (const std::string& suite : suites) floors.push_back(measure_suite(load_suite(suite)));
-    }
     for (const reports::NoiseFloor& floor : floors) {
       const std::string path = path_within(common.output, floor.suite + "/noise_floor.json");
       write_file(path, reports::noise_floor_json(floor));
@@ -41,9 +40,8 @@ struct CalibrateNoise {
       fmt::print("{}: {} seeds, for results of {} seeds\n", path, floor.seeds, floor.seeds_per_result);
     }
     if (common.quiet) return;
-    for (const reports::NoiseFloor& floor : floors) {
+    for (const reports::NoiseFloor& floor : floors)
       fmt::print("\n{}", reports::to_markdown(smallest_changes(floor)));
-    }
     fmt::print(
         "\nThe smallest change that the gate stops: on the baseline's own noise seeds, and, with 90% power, on "
         "others.\nA change is taken to add the same to every frame.\n");

@@ -240,10 +240,9 @@ void require_different_files(const std::vector<FileFlag>& files) {
 }
 
 void require_writable_files(const std::vector<FileFlag>& files) {
-  for (const FileFlag& file : files) {
+  for (const FileFlag& file : files)
     if (!file.path.empty() && !file.path.ends_with(file.ending))
       throw Error(file.flag, "file name", file.path, "the ending " + file.ending);
-  }
   require_different_files(files);
   for (const FileFlag& file : files)
     if (!file.path.empty()) const WholeFile probe(file.path);  // never committed: nothing stays

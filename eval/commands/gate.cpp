@@ -69,9 +69,8 @@ struct Gate {
     const std::optional<Suite> whole = has_suite ? std::optional(suite_of(run, suite)) : std::nullopt;
     const std::vector<std::string> accepted = accepted_rows(folder, candidate);
     update_baseline(folder, run, whole, measured_speed(), load_stage_times(candidate.files), accepted);
-    if (run.result.commit.ends_with("-dirty")) {
+    if (run.result.commit.ends_with("-dirty"))
       fmt::print("warning: built from a tree with changes: nobody else has this program\n");
-    }
     if (quiet) return 0;
     for (const std::string& row : accepted) fmt::print("ACCEPTED: {}\n", row);
     const std::string name = run.result.suite.empty() ? "" : " of suite " + run.result.suite;

@@ -133,9 +133,8 @@ TEST(Help, OfEveryCommandNamesItsFlags) {
     const ProgramRun run = run_glovebench(command);
     EXPECT_EQ(run.exit_code, 0) << command[0];
     EXPECT_EQ(run.err, "");
-    for (const auto& flags : all) {
+    for (const auto& flags : all)
       for (const std::string& flag : flags) EXPECT_THAT(run.out, HasSubstr(flag)) << command[0];
-    }
   };
   expect_flags({}, {{"reproduce", "run", "record", "render", "track", "explain", "db", "list", "--version"}});
   expect_flags({"reproduce"}, {tracker, machine, random, {"--output", "--trajectory", "--seeds", "--robot-out"}});

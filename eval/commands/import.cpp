@@ -33,9 +33,8 @@ struct ImportMarkers {
       throw Error("import markers", "files", fmt::format("{}", files.size()),
                   "one, or several of --format handpose");
     }
-    if ((is_poses || postures) && (T_capture_camera || every > 1)) {
+    if ((is_poses || postures) && (T_capture_camera || every > 1))
       throw Error("import markers", "options", "--camera or --every with a posture set", "them with a trajectory");
-    }
     if (!output.ends_with(".json")) throw Error("--output", "file name", output, "the ending .json");
     const std::string name = std::filesystem::path(output).stem().string();
     const std::string residuals = name + ".residuals.csv";

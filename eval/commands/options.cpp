@@ -66,9 +66,8 @@ Eigen::Isometry3d rigid_transform(const std::string& flag, const std::vector<dou
   for (const double value : values)
     if (!std::isfinite(value)) throw Error(flag, "transform", fmt::format("{}", value), "finite numbers");
   const Eigen::Quaterniond q(values[3], values[4], values[5], values[6]);
-  if (!(std::abs(q.norm() - 1) < 1e-3)) {
+  if (!(std::abs(q.norm() - 1) < 1e-3))
     throw Error(flag, "length of the quaternion", fmt::format("{}", q.norm()), "1");
-  }
   return Eigen::Translation3d(values[0], values[1], values[2]) * q.normalized();
 }
 

@@ -193,24 +193,19 @@ struct RunCommand {
     for (const std::string& trajectory : without_manifests(trajectories)) {
       SuiteEntry entry{trajectory,    {}, databases, subject, from_name<Appearance>(appearance).value(),
                        {noise, gain}, {}};
-      if (!trajectories::is_trajectory_file(trajectory)) {
-        entry.truth = from_name<reports::TruthKind>(truth);
-      }
+      if (!trajectories::is_trajectory_file(trajectory)) entry.truth = from_name<reports::TruthKind>(truth);
       suite.entries.push_back(entry);
     }
     return suite;
   }
 
   void require_one_choice() const {
-    if (suite_name.empty() && !(command.given("--trajectory") && command.given("--database"))) {
+    if (suite_name.empty() && !(command.given("--trajectory") && command.given("--database")))
       throw Error("run", "experiments", "none", "--suite, or --trajectory and --database");
-    }
     for (const char* flag :
-         {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject", "--appearance"}) {
-      if (!suite_name.empty() && command.given(flag)) {
+         {"--trajectory", "--database", "--truth", "--noise", "--gain", "--subject", "--appearance"})
+      if (!suite_name.empty() && command.given(flag))
         throw Error(fmt::format("run: {} does not go with --suite, whose file says it", flag));
-      }
-    }
   }
 
   void require_output() const {

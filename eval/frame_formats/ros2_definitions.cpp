@@ -108,9 +108,8 @@ std::string ros_definition(std::string_view type) {
   std::string text(ros_text(type));
   std::vector<std::string_view> types;
   add_named_types(ros_text(type), types);
-  for (const std::string_view named_type : types) {
+  for (const std::string_view named_type : types)
     text.append(80, '=').append("\nMSG: ").append(named_type).append("\n").append(ros_text(named_type));
-  }
   return text;
 }
 

@@ -173,9 +173,8 @@ Suite suite_of(const reports::NamedResult& run, const std::string& name_or_file)
   if (name.empty()) throw Error(run.name, "suite", "none", "the run of a suite (run --suite)");
   const std::vector<std::string> known = suite_names();
   const bool is_known = std::ranges::find(known, name) != known.end();
-  if (name_or_file.empty() && !is_known) {
+  if (name_or_file.empty() && !is_known)
     throw Error(run.name, "suite", name, fmt::format("{}, or the suite's file as --suite", fmt::join(known, ", ")));
-  }
   Suite suite = load_suite(name_or_file.empty() ? name : name_or_file);
   if (suite.name != name) throw Error(run.name, "suite", name, suite.name);
   return suite;

@@ -12,9 +12,8 @@ constexpr float kSurfaceStep = 0.02f;
 
 /// The one-sided difference of smaller magnitude: the slope of the surface itself, not of the step at its border.
 float surface_difference(float before, float here, float after) {
-  if (before > 0 && after > 0) {
+  if (before > 0 && after > 0)
     return std::abs(after - here) < std::abs(here - before) ? after - here : here - before;
-  }
   return central_difference(before, here, after);
 }
 

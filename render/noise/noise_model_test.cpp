@@ -15,11 +15,9 @@ const FrameKey kKey{7, "test", 3};
 /// z of the plane z = z0 + slope * x at every pixel.
 DepthImage slanted_plane(double z0, double slope) {
   DepthImage depth(kCamera.width, kCamera.height);
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
+  for (int v = 0; v < depth.height(); ++v)
+    for (int u = 0; u < depth.width(); ++u)
       depth(u, v) = static_cast<float>(z0 / (1 - slope * (u - kCamera.cx) / kCamera.fx));
-    }
-  }
   return depth;
 }
 
@@ -96,9 +94,8 @@ TEST(Noise, KinectDisparityNoiseIsHalfAStepWithRounding) {
 
 TEST(Noise, KinectShadowLiesToTheLeftOfTheNearSurface) {
   DepthImage depth(640, 480, 1.0f);
-  for (int v = 100; v < 200; ++v) {
+  for (int v = 100; v < 200; ++v)
     for (int u = 300; u < 340; ++u) depth(u, v) = 0.6f;
-  }
   NoiseConfig config;
   config.depth = "kinect";
   config.kinect.lateral_sigma_px = 0;

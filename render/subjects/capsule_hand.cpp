@@ -61,9 +61,8 @@ CapsuleHand::CapsuleHand(uint64_t seed, Side side, const Skeleton& definition)
       capsules_(make_capsules(dimensions_, skeleton_)) {
   polygonize(seed);
   hash_ = make_hash();
-  if (side_ == Side::left) {
+  if (side_ == Side::left)
     for (Triangle& t : triangles_) std::swap(t.vertices[1], t.vertices[2]);
-  }
 }
 
 void CapsuleHand::polygonize(uint64_t seed) {
@@ -124,10 +123,9 @@ void CapsuleHand::join_capsules(const std::vector<Capsule>& rest, const Eigen::V
   }
   double kept = 0;
   for (const double f : follow) kept += f / sum >= kLeastFollow ? f : 0;
-  for (int j = 0; j < kJointCount; ++j) {
+  for (int j = 0; j < kJointCount; ++j)
     if (follow[j] / sum >= kLeastFollow)
       follows_.push_back({static_cast<uint8_t>(j), static_cast<float>(follow[j] / kept)});
-  }
 }
 
 Posture CapsuleHand::rest_posture() {
@@ -139,9 +137,7 @@ PosedHand CapsuleHand::pose(const Posture& posture) const {
   hand.T_hand_joint = skeleton_.pose(posture);
   const std::vector<Capsule> placed = place_capsules(capsules_, hand.T_hand_joint, posture);
   std::array<Eigen::Matrix<double, 3, 4>, kJointCount> moves;
-  for (int j = 0; j < kJointCount; ++j) {
-    moves[j] = (hand.T_hand_joint[j] * T_joint_rest_[j]).matrix().topRows<3>();
-  }
+  for (int j = 0; j < kJointCount; ++j) moves[j] = (hand.T_hand_joint[j] * T_joint_rest_[j]).matrix().topRows<3>();
   hand.vertices.reserve(rest_.size());
   for (size_t v = 0; v < rest_.size(); ++v) {
     Eigen::Matrix<double, 3, 4> move = Eigen::Matrix<double, 3, 4>::Zero();

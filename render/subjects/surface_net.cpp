@@ -96,9 +96,8 @@ class SurfaceNetMaker {
 
 bool is_closed(std::span<const std::array<uint32_t, 3>> triangles) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
-  for (const auto& t : triangles) {
+  for (const auto& t : triangles)
     for (int i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-  }
   return std::all_of(edges.begin(), edges.end(), [&edges](const auto& entry) {
     const auto& [edge, count] = entry;
     return count == 1 && edges.contains({edge.second, edge.first});

@@ -52,12 +52,11 @@ bool is_kept(JudgingChange earlier, const JudgingChange& later) {
 template <typename Change>
 void compare(const std::string& whose, const std::vector<Change>& earlier, const std::vector<Change>& later,
              std::vector<std::string>& found) {
-  for (size_t i = 0; i < earlier.size(); ++i) {
+  for (size_t i = 0; i < earlier.size(); ++i)
     if (i >= later.size())
       found.push_back(fmt::format("{}: entry {} of its history is gone", whose, i + 1));
     else if (!is_kept(earlier[i], later[i]))
       found.push_back(fmt::format("{}: entry {} of its history is another one", whose, i + 1));
-  }
 }
 
 /// A sentence per entry of `earlier` that `later` changes. It may add entries, and fill an empty commit or

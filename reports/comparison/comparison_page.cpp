@@ -128,12 +128,11 @@ Table worst_frames_table(const std::vector<ChangedFrame>& worst) {
 
 std::string rows_section(const Comparison& comparison) {
   std::vector<ComparisonRow> all, changed;
-  for (const ComparisonRow& row : comparison.rows) {
+  for (const ComparisonRow& row : comparison.rows)
     if (row.experiment == kAllExperiments)
       all.push_back(row);
     else if (is_worth_reading(row))
       changed.push_back(row);
-  }
   std::string html;
   if (!all.empty()) html += "<h2>All experiments</h2>\n" + rows_html(all, true);
   html += "<h2>What changed</h2>\n";

@@ -13,12 +13,11 @@ constexpr std::string_view kWorseInPlaces = "worse in places";
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts(1);
-  for (const char c : text) {
+  for (const char c : text)
     if (c == separator)
       parts.emplace_back();
     else
       parts.back() += c;
-  }
   return parts;
 }
 

@@ -148,12 +148,11 @@ std::string across_hint(const ExperimentKey& missing, const RunResult& baseline,
 
 Pairing pair_experiments(const RunResult& baseline, const RunResult& candidate, const PairingOptions& options) {
   Pairing pairing;
-  for (const ExperimentResult& experiment : baseline.experiments) {
+  for (const ExperimentResult& experiment : baseline.experiments)
     if (const ExperimentResult* other = find_partner(candidate, experiment.key, options))
       pairing.experiments.emplace_back(&experiment, other);
     else
       pairing.only_in_baseline.push_back(to_string(experiment.key));
-  }
   for (const ExperimentResult& experiment : candidate.experiments)
     if (!find_partner(baseline, experiment.key, options))
       pairing.only_in_candidate.push_back(to_string(experiment.key));

@@ -53,9 +53,8 @@ nlohmann::ordered_json stage_times_json(const StageTimes& times) {
 StageTimes stage_times_from(const JsonCursor& json) {
   json.expect_keys({"processor", "threads", "stage_median_ms"});
   StageTimes times{json["processor"].text(), json["threads"].count(), {}};
-  for (const auto& [name, value] : json["stage_median_ms"].members()) {
+  for (const auto& [name, value] : json["stage_median_ms"].members())
     times.stages.push_back({name, milliseconds(value)});
-  }
   return times;
 }
 

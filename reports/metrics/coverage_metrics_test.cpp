@@ -49,9 +49,8 @@ TEST(CoverageLevels, AreSharesOfTheVisibleFrames) {
   EXPECT_DOUBLE_EQ(*coverage.share(), 4 / 6.0) << "of all frames, as ever";
   double unusable = 0;
   int frames = 0;
-  for (const FrameRecord& frame : runs[0].frames) {
+  for (const FrameRecord& frame : runs[0].frames)
     if (const auto value = value_of(metric_of("unusable_percent"), frame)) unusable += *value, ++frames;
-  }
   EXPECT_EQ(frames, 5);
   EXPECT_DOUBLE_EQ(unusable, 400);
 }

@@ -102,9 +102,8 @@ FrameErrors measure_frame(int frame, const TrackResult& estimate, const FrameTru
 
 std::array<int, kPatchCount> count_patches(const Image<uint8_t>& patch_image) {
   std::array<int, kPatchCount> counts{};
-  for (const uint8_t patch : patch_image) {
+  for (const uint8_t patch : patch_image)
     if (patch > 0) ++counts[patch - 1];
-  }
   return counts;
 }
 

@@ -44,9 +44,8 @@ Chosen observed_angles(const std::array<int, kPatchCount>& visible_pixels) {
   Chosen observed;
   for (int a = 0; a < kAngleCount; ++a) {
     int pixels = 0;
-    for (int p = 0; p < kPatchCount; ++p) {
+    for (int p = 0; p < kPatchCount; ++p)
       if (patches_moved()[a] >> p & 1) pixels += visible_pixels[p];
-    }
     observed[a] = pixels >= kObservedPixels;
   }
   return observed;

@@ -84,9 +84,8 @@ class Problem {
     add_prior(state.posture, prior, frame.H, frame.b);
     const StateStep wanted = frame.b;
     hold_at_limits(state, frame.H, frame.b);
-    for (int i = 0; i < kStateSize; ++i) {
+    for (int i = 0; i < kStateSize; ++i)
       if (frame.b[i] == 0 && wanted[i] != 0) frame.cross.row(i).setZero();
-    }
     return frame;
   }
 

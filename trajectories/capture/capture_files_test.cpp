@@ -164,9 +164,8 @@ std::string handpose_bytes(float joint_count = 25) {
   }
   floats.resize(floats.size() + 50, 0.5F);
   std::string bytes;
-  for (const float value : floats) {
+  for (const float value : floats)
     for (int b = 0; b < 4; ++b) bytes += static_cast<char>(std::bit_cast<uint32_t>(value) >> (8 * b));
-  }
   return bytes;
 }
 

@@ -33,9 +33,8 @@ const Turned& turned() {
     for (size_t a = 0; a < kAngleCount; ++a) {
       result.joint[a] = joint_of_angle(static_cast<int>(a));
       for (int joint = 0; joint < kJointCount; ++joint) {
-        for (int j = joint; j >= 0; j = joint_parents()[static_cast<size_t>(j)]) {
+        for (int j = joint; j >= 0; j = joint_parents()[static_cast<size_t>(j)])
           if (j == result.joint[a]) result.carries[a][static_cast<size_t>(joint)] = true;
-        }
       }
     }
     return result;
@@ -64,9 +63,8 @@ bool is_rigid_pair(const PlacedMarker& a, const PlacedMarker& b) {
 std::vector<Posture> first_postures() {
   const auto bent = [](double degrees) {
     Posture posture = Posture::Zero();
-    for (int mcp = kIndexMcpFlexion; mcp < kAngleCount; mcp += 4) {
+    for (int mcp = kIndexMcpFlexion; mcp < kAngleCount; mcp += 4)
       posture.segment<3>(mcp).setConstant(radians_from_degrees(degrees));
-    }
     posture[kThumbCmcAbduction] = posture[kThumbCmcFlexion] = radians_from_degrees(20);
     posture[kThumbMcpFlexion] = posture[kThumbIpFlexion] = radians_from_degrees(degrees / 2);
     return posture;
@@ -154,9 +152,8 @@ Eigen::Isometry3d marker_frame(const PlacedMarker& marker, const JointPoses& T_h
 std::vector<Eigen::Vector3d> predict_points(const CaptureHand& hand, const HandState& state) {
   const JointPoses T_hand_joint = hand.skeleton.pose(state.posture);
   std::vector<Eigen::Vector3d> points;
-  for (const PlacedMarker& marker : hand.markers) {
+  for (const PlacedMarker& marker : hand.markers)
     points.push_back(state.T_capture_hand * (marker_frame(marker, T_hand_joint) * marker.offset));
-  }
   return points;
 }
 
@@ -209,9 +206,8 @@ std::vector<HandState> start_states(const CaptureHand& hand, const std::vector<P
   const size_t first = best_start(hand, points, where);
   std::vector<HandState> states(points.size());
   states[first] = start_state(hand, points[first], nullptr, robust_scale);
-  for (size_t f = first + 1; f < points.size(); ++f) {
+  for (size_t f = first + 1; f < points.size(); ++f)
     states[f] = start_state(hand, points[f], &states[f - 1], robust_scale);
-  }
   for (size_t f = first; f-- > 0;) states[f] = start_state(hand, points[f], &states[f + 1], robust_scale);
   return states;
 }

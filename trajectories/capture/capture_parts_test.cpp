@@ -53,9 +53,8 @@ TEST(CaptureHand, derivative_by_the_state_is_that_of_the_points) {
 
 TEST(CaptureHand, derivative_by_the_hand_is_that_of_the_points) {
   CaptureHand nominal = skin_hand();
-  for (const PlacedMarker& joint : place_markers(webxr_names(), {}, model(), "capture")) {
+  for (const PlacedMarker& joint : place_markers(webxr_names(), {}, model(), "capture"))
     nominal.markers.push_back(joint);
-  }
   const HandParameters parameters(nominal);
   const Eigen::VectorXd values = 0.3 * parameters.deviations();
   const HandState state = some_state();

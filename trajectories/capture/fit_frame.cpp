@@ -54,9 +54,8 @@ template <typename Shown>
 std::vector<std::pair<size_t, Between>> gaps_of(size_t count, const std::vector<double>& times_s, Shown is_shown) {
   std::vector<std::pair<size_t, Between>> gaps;
   std::vector<size_t> shown;
-  for (size_t f = 0; f < count; ++f) {
+  for (size_t f = 0; f < count; ++f)
     if (is_shown(f)) shown.push_back(f);
-  }
   if (shown.empty()) return gaps;
   size_t next = 0;
   for (size_t f = 0; f < count; ++f) {

@@ -35,9 +35,8 @@ Cloud sorted_points(const MarkerSequence& sequence) {
   for (const MarkerFrame& frame : sequence.frames) {
     Points& labeled = cloud.labeled.emplace_back();
     Points& unlabeled = cloud.unlabeled.emplace_back();
-    for (size_t p = 0; p < sequence.names.size(); ++p) {
+    for (size_t p = 0; p < sequence.names.size(); ++p)
       (is_unlabeled(sequence.names[p]) ? unlabeled : labeled).push_back(frame.points[p]);
-    }
   }
   return cloud;
 }
@@ -164,9 +163,8 @@ HandFit fit_hand(const MarkerSequence& sequence, const std::vector<PlacedMarker>
   fit.hand = calibrate(nominal, points, states, scale, kFinalGain).hand;
   states = refit(fit.hand, points, states, scale);
   report_frames(cloud, points, states, scale, fit);
-  if (std::ranges::all_of(fit.frames, &FittedFrame::left_out)) {
+  if (std::ranges::all_of(fit.frames, &FittedFrame::left_out))
     throw Error(where, "points", "no frame that fits a hand", "points of a hand whose names say where they sit");
-  }
   return fit;
 }
 

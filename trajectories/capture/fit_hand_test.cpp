@@ -46,9 +46,8 @@ AngleErrors angle_errors(const HandFit& fit, const Trajectory& truth) {
   for (int a = 0; a < kAngleCount; ++a) {
     if (fit.never_shown[a]) continue;
     std::vector<double> errors;
-    for (size_t f = 0; f < truth.frames.size(); ++f) {
+    for (size_t f = 0; f < truth.frames.size(); ++f)
       errors.push_back(degrees_from_radians(std::abs(fit.frames[f].state.posture[a] - truth.frames[f].posture[a])));
-    }
     result.table += fmt::format("{:24} {:6.2f} {:6.2f}\n", angle_infos()[a].name, *quantile_of(errors, 0.5),
                                 *quantile_of(errors, 0.95));
     all.insert(all.end(), errors.begin(), errors.end());
@@ -94,9 +93,8 @@ TEST(FitHand, says_what_no_point_shows) {
   });
   const HandFit result = fit(captured(truth, nominal_model(), names, {}));
   std::vector<std::string_view> never;
-  for (int a = 0; a < kAngleCount; ++a) {
+  for (int a = 0; a < kAngleCount; ++a)
     if (result.never_shown[a]) never.push_back(angle_infos()[a].name);
-  }
   EXPECT_THAT(never, testing::ElementsAre("wrist_flexion", "wrist_abduction", "thumb_mcp_flexion",
                                           "thumb_ip_flexion", "ring_dip_flexion"));
   const Posture& posture = result.frames[5].state.posture;
@@ -107,9 +105,8 @@ TEST(FitHand, says_what_no_point_shows) {
 TEST(FitHand, bridges_a_short_gap_and_leaves_a_long_one_out) {
   const Trajectory truth = movement("Tr4", 40);  // at 15 Hz
   MarkerSequence sequence = captured(truth, nominal_model(), webxr_names(), {});
-  for (const size_t f : {5, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 39}) {
+  for (const size_t f : {5, 6, 20, 21, 22, 23, 24, 25, 26, 27, 28, 39})
     sequence.frames[f].points.assign(sequence.names.size(), gap());
-  }
   const HandFit result = fit(sequence);
   for (size_t f = 0; f < truth.frames.size(); ++f) {
     const bool is_long = (f >= 20 && f <= 28) || f == 39;
@@ -136,16 +133,14 @@ TEST(FitHand, refuses_what_is_no_hand) {
   EXPECT_EQ(refusal(good), "accepted");
 
   MarkerSequence large = good;
-  for (MarkerFrame& frame : large.frames) {
+  for (MarkerFrame& frame : large.frames)
     for (Eigen::Vector3d& p : frame.points) p *= 10;
-  }
   EXPECT_THAT(refusal(large), AllOf(HasSubstr("capture: points: found a hand of 10 times"), HasSubstr("unit")));
 
   MarkerSequence fingertip = good;
   for (MarkerFrame& frame : fingertip.frames) {
-    for (size_t p = 0; p < frame.points.size(); ++p) {
+    for (size_t p = 0; p < frame.points.size(); ++p)
       if (fingertip.names[p] != "index-finger-tip") frame.points[p] = gap();
-    }
   }
   EXPECT_THAT(refusal(fingertip), HasSubstr("found no frame with three on the palm"));
 
@@ -153,9 +148,8 @@ TEST(FitHand, refuses_what_is_no_hand) {
   MarkerSequence nonsense = captured(movement("Tr4", 15), nominal_model(), webxr_names(), {});
   for (size_t f = 0; f < nonsense.frames.size(); ++f) {
     RandomStream random(1, "nonsense", static_cast<int64_t>(f), "points");
-    for (Eigen::Vector3d& p : nonsense.frames[f].points) {
+    for (Eigen::Vector3d& p : nonsense.frames[f].points)
       p = 0.04 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-    }
   }
   EXPECT_THAT(refusal(nonsense), HasSubstr("found no frame that fits a hand"));
 
@@ -169,9 +163,8 @@ TEST(FitHand, refuses_what_is_no_hand) {
 Trajectory with_free_end_joints(Trajectory movement) {
   for (size_t f = 0; f < movement.frames.size(); ++f) {
     Posture& posture = movement.frames[f].posture;
-    for (int dip = kIndexDipFlexion; dip < kAngleCount; dip += 4) {
+    for (int dip = kIndexDipFlexion; dip < kAngleCount; dip += 4)
       posture[dip] += radians_from_degrees(15) * std::sin(0.1 * static_cast<double>(f) + dip);
-    }
     posture = clamp_to_limits(posture);
   }
   return movement;

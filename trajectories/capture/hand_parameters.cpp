@@ -31,16 +31,14 @@ HandParameters::HandParameters(const CaptureHand& nominal) : nominal_(nominal) {
   };
   for (int j = 0; j < kForearmJoint; ++j) {
     first_of_joint_[static_cast<size_t>(j)] = static_cast<int>(deviations.size());
-    if (is_segment_end(j)) {
+    if (is_segment_end(j))
       deviations.push_back(has_joint_center(nominal, j) ? kSeenSegmentDeviation : kSegmentDeviation);
-    } else {
+    else
       add(kPalmDeviation);
-    }
   }
   first_of_joint_[kForearmJoint] = first_of_joint_[kWristJoint];  // begins at the wrist
-  for (const PlacedMarker& marker : nominal.markers) {
+  for (const PlacedMarker& marker : nominal.markers)
     first_of_marker_.push_back(marker.is_joint_center() ? -1 : add(marker.deviation));
-  }
   deviations_ = Eigen::Map<Eigen::VectorXd>(deviations.data(), static_cast<Eigen::Index>(deviations.size()));
 
   // Origin midway between wrist and middle MCP, both on the z axis, index and little MCP equally high.
@@ -64,9 +62,8 @@ CaptureHand HandParameters::hand(const Eigen::VectorXd& parameters) const {
     hand.skeleton.set_offset(j, is_segment_end(j) ? Eigen::Vector3d((1 + parameters[first]) * offset)
                                                   : Eigen::Vector3d(offset + parameters.segment<3>(first)));
   }
-  for (size_t m = 0; m < hand.markers.size(); ++m) {
+  for (size_t m = 0; m < hand.markers.size(); ++m)
     if (first_of_marker_[m] >= 0) hand.markers[m].offset += parameters.segment<3>(first_of_marker_[m]);
-  }
   return hand;
 }
 
@@ -77,9 +74,8 @@ Eigen::MatrixXd HandParameters::jacobian(const CaptureHand& hand, const HandStat
   for (size_t m = 0; m < hand.markers.size(); ++m) {
     const PlacedMarker& marker = hand.markers[m];
     auto rows = jacobian.middleRows<3>(static_cast<Eigen::Index>(3 * m));
-    if (first_of_marker_[m] >= 0) {
+    if (first_of_marker_[m] >= 0)
       rows.middleCols<3>(first_of_marker_[m]) = R * marker_frame(marker, T_hand_joint).linear();
-    }
     for (int j = marker.joint; j >= 0; j = joint_parents()[static_cast<size_t>(j)]) {
       const int first = first_of_joint_[static_cast<size_t>(j)];
       if (is_segment_end(j)) {

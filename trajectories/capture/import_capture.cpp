@@ -19,9 +19,8 @@ namespace {
 constexpr uint64_t kLargestCapture = uint64_t{256} << 20;  // an hour of a hand's markers at 120 Hz
 
 MarkerSequence mirrored(MarkerSequence sequence) {
-  for (MarkerFrame& frame : sequence.frames) {
+  for (MarkerFrame& frame : sequence.frames)
     for (Eigen::Vector3d& p : frame.points) p.x() = -p.x();
-  }
   return sequence;
 }
 
@@ -43,9 +42,7 @@ MarkerSequence load_captures(const std::vector<std::string>& paths, const Format
       all = std::move(sequence);
       continue;
     }
-    if (sequence.names != all.names) {
-      throw Error(path, "points", "other names", "those of " + paths.front());
-    }
+    if (sequence.names != all.names) throw Error(path, "points", "other names", "those of " + paths.front());
     const int64_t begin = all.frames.back().timestamp_us + step_us;
     for (MarkerFrame& frame : sequence.frames) {
       frame.timestamp_us += begin;
@@ -78,9 +75,8 @@ std::vector<double> all_residuals(const HandFit& fit) {
 
 std::string names_of(const std::array<bool, kAngleCount>& angles) {
   std::string names;
-  for (size_t a = 0; a < kAngleCount; ++a) {
+  for (size_t a = 0; a < kAngleCount; ++a)
     if (angles[a]) names += fmt::format("{}{}", names.empty() ? "" : " ", angle_infos()[a].name);
-  }
   return names;
 }
 

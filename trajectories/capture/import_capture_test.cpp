@@ -67,9 +67,8 @@ TEST(ImportCapture, gives_the_postures_that_differ_most) {
   ASSERT_EQ(set.postures.size(), 4U);
   EXPECT_EQ(set.posture_names[0], "frame_0");
   double farthest = 0;
-  for (const FittedFrame& frame : fit.frames) {
+  for (const FittedFrame& frame : fit.frames)
     farthest = std::max(farthest, posture_distance(frame.state.posture, set.postures[0]));
-  }
   EXPECT_DOUBLE_EQ(posture_distance(set.postures[1], set.postures[0]), farthest);
   EXPECT_EQ(postures_of(fit, "all", 100, {}).postures.size(), 40U);
 }

@@ -112,9 +112,8 @@ std::string known_places() {
 }  // namespace
 
 bool is_webxr_joint(const std::string& name) {
-  for (int j = 0; j < kWebxrJointCount; ++j) {
+  for (int j = 0; j < kWebxrJointCount; ++j)
     if (joint_name(j) == name) return true;
-  }
   return false;
 }
 
@@ -132,9 +131,8 @@ MarkerLayout parse_marker_layout(std::string_view text, const std::string& where
   MarkerLayout layout;
   for (const auto& [name, marker] : root["markers"].members()) {
     const std::string place = marker.text();
-    if (!is_webxr_joint(place) && !places().contains(without_number(place))) {
+    if (!is_webxr_joint(place) && !places().contains(without_number(place)))
       marker.fail("one of " + known_places() + ", or a WebXR hand joint");
-    }
     layout[name] = place;
   }
   return layout;
@@ -160,11 +158,9 @@ std::optional<PlacedMarker> place_marker(const std::string& name, const HandMode
 
 std::vector<PlacedMarker> place_markers(const std::vector<std::string>& names, const MarkerLayout& layout,
                                         const HandModel& model, const std::string& where) {
-  for (const auto& [name, place] : layout) {
-    if (std::ranges::find(names, name) == names.end()) {
+  for (const auto& [name, place] : layout)
+    if (std::ranges::find(names, name) == names.end())
       throw Error(where, "points", "none named " + quoted_excerpt(name), "all points of the layout");
-    }
-  }
   std::vector<PlacedMarker> markers;
   for (const std::string& name : names) {
     if (is_unlabeled(name)) continue;

@@ -63,12 +63,10 @@ Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale
 void add_name(std::string_view name, MarkerSequence& sequence, const std::string& where, const std::string& field) {
   const bool is_starred = name.starts_with("*") && is_name(name.substr(1));
   if (!is_name(name) && !is_starred) throw Error(where, field, quoted_excerpt(name), kNameExpected);
-  if (std::ranges::find(sequence.names, name) != sequence.names.end()) {
+  if (std::ranges::find(sequence.names, name) != sequence.names.end())
     throw Error(where, field, quoted_excerpt(name) + " again", "names that differ");
-  }
-  if (sequence.names.size() == kMaxMarkers) {
+  if (sequence.names.size() == kMaxMarkers)
     throw Error(where, field, "more points", fmt::format("{} at most", kMaxMarkers));
-  }
   sequence.names.emplace_back(name);
 }
 
@@ -125,9 +123,8 @@ std::vector<int> assign(const Eigen::MatrixXd& cost) {
     for (; column != 0; column = way[column]) row_of[column] = row_of[way[column]];
   }
   std::vector<int> column_of(static_cast<size_t>(rows), -1);
-  for (size_t c = 1; c < row_of.size(); ++c) {
+  for (size_t c = 1; c < row_of.size(); ++c)
     if (row_of[c] > 0) column_of[row_of[c] - 1] = static_cast<int>(c) - 1;
-  }
   return column_of;
 }
 

@@ -39,11 +39,9 @@ inline std::vector<std::string> webxr_names() {
 inline std::vector<std::string> skin_names() {
   std::vector<std::string> names = {"thumb_metacarpal", "thumb_proximal", "thumb_distal",   "thumb_tip",
                                     "wrist_radial",     "wrist_ulnar",    "forearm_radial", "forearm_ulnar"};
-  for (const std::string finger : {"index", "middle", "ring", "little"}) {
-    for (const std::string place : {"_knuckle", "_proximal", "_intermediate", "_distal", "_tip"}) {
+  for (const std::string finger : {"index", "middle", "ring", "little"})
+    for (const std::string place : {"_knuckle", "_proximal", "_intermediate", "_distal", "_tip"})
       names.push_back(finger + place);
-    }
-  }
   return names;
 }
 
@@ -92,9 +90,8 @@ inline MarkerSequence flawed(MarkerSequence sequence, const CaptureFlaws& flaws)
       std::swap(points[m], points[m + 1]);
     }
     size_t column = markers;
-    for (size_t m = 0; m < markers && column < points.size(); ++m) {
+    for (size_t m = 0; m < markers && column < points.size(); ++m)
       if (random.uniform() < flaws.unlabeled_share) std::swap(points[m], points[column++]);
-    }
     for (size_t m = 0; m < markers; ++m) {
       RandomStream gaps(flaws.seed, sequence.names[m], static_cast<int64_t>(f) / kGapFrames, "gaps");
       if (gaps.uniform() < flaws.gap_share) points[m] = gap();

@@ -17,21 +17,18 @@ constexpr std::array<std::string_view, 3> kAxes = {"_x", "_y", "_z"};
 std::string_view point_name(std::string_view heading, std::string_view axis, std::string_view unit,
                             const std::string& where, const std::string& field) {
   const std::string ending = fmt::format("{}{}", axis, unit);
-  if (!heading.ends_with(ending) || heading.size() == ending.size()) {
+  if (!heading.ends_with(ending) || heading.size() == ending.size())
     throw Error(where, field, quoted_excerpt(heading), fmt::format("a name with the ending {}", ending));
-  }
   return heading.substr(0, heading.size() - ending.size());
 }
 
 /// Adds the names of the headings; the unit of the points, in metres.
 double read_headings(const std::vector<std::string_view>& headings, MarkerSequence& sequence,
                      const std::string& where) {
-  if (headings.front() != kTime) {
+  if (headings.front() != kTime)
     throw Error(where, "line 1, column 1", quoted_excerpt(headings.front()), quoted_excerpt(kTime));
-  }
-  if (headings.size() < 4 || headings.size() % 3 != 1) {
+  if (headings.size() < 4 || headings.size() % 3 != 1)
     throw Error(where, "line 1", fmt::format("{} columns", headings.size()), "time_s and three for each point");
-  }
   const std::string_view unit = headings[1].ends_with("_mm") ? "_mm" : "_m";
   for (size_t c = 1; c < headings.size(); ++c) {
     const std::string field = fmt::format("line 1, column {}", c + 1);
@@ -77,9 +74,8 @@ std::string csv_markers(const MarkerSequence& sequence) {
   text += "\n";
   for (const MarkerFrame& frame : sequence.frames) {
     text += fixed(static_cast<double>(frame.timestamp_us) / 1e6, 6);
-    for (const Eigen::Vector3d& p : frame.points) {
+    for (const Eigen::Vector3d& p : frame.points)
       for (int i = 0; i < 3; ++i) text.append(",") += is_seen(p) ? fixed(1000 * p[i], 3) : "";
-    }
     text += "\n";
   }
   return text;

@@ -110,9 +110,8 @@ void write_posture_set(const PostureSet& set, const std::string& path) { write_f
 
 const Posture& find_posture(const PostureSet& set, std::string_view name) {
   const auto found = std::ranges::find(set.posture_names, name);
-  if (found == set.posture_names.end()) {
+  if (found == set.posture_names.end())
     throw Error("posture set " + set.name, "posture", quoted_excerpt(name), one_of(set.posture_names, name));
-  }
   return set.postures[static_cast<size_t>(found - set.posture_names.begin())];
 }
 

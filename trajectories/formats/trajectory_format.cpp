@@ -43,9 +43,8 @@ Eigen::Vector4d canonical_wxyz(const Eigen::Matrix3d& rotation) {
     rounded = (rounded.normalized() / kQuaternionStep).array().round() * kQuaternionStep;
   }
   // q and -q are one rotation: the first component that is not zero is positive.
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 4; ++i)
     if (rounded[i] != 0) return rounded[i] > 0 ? rounded : Eigen::Vector4d(-rounded);
-  }
   return rounded;
 }
 
@@ -111,13 +110,11 @@ std::string canonical_json(const Trajectory& trajectory) {
   json +=
       fmt::format("  \"description\": {},\n  \"side\": {},\n  \"kind\": {},\n", in_quotes(trajectory.description),
                   in_quotes(to_string(trajectory.side)), in_quotes(to_string(trajectory.kind)));
-  if (trajectory.provenance) {
+  if (trajectory.provenance)
     json += fmt::format("  \"provenance\": {},\n", provenance_json(*trajectory.provenance));
-  }
   json += fmt::format("  \"joint_order\": {},\n  \"frames\": [\n", joint_order_json());
-  for (size_t i = 0; i < trajectory.frames.size(); ++i) {
+  for (size_t i = 0; i < trajectory.frames.size(); ++i)
     json += (i > 0 ? ",\n" : "") + frame_json(trajectory.frames[i]);
-  }
   return json + "\n  ]\n}\n";
 }
 

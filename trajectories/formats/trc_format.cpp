@@ -37,9 +37,8 @@ std::string_view value_of(std::string_view name, const Cells& names, const Cells
                           const std::string& where) {
   const auto found = std::ranges::find(names, name);
   const auto column = static_cast<size_t>(found - names.begin());
-  if (column >= values.size()) {
+  if (column >= values.size())
     throw Error(where, fmt::format("lines 2 and 3, {}", name), "nothing", "a name and a value");
-  }
   return values[column];
 }
 
@@ -76,12 +75,10 @@ void read_names(std::span<const std::string_view> lines, size_t count, MarkerSeq
     if (axis == 0) add_name(names[c], sequence, where, field);
     if (axis != 0 && !names[c].empty()) throw Error(where, field, quoted_excerpt(names[c]), "an empty cell");
   }
-  if (sequence.names.size() != count) {
+  if (sequence.names.size() != count)
     throw Error(where, "line 4", fmt::format("{} names", sequence.names.size()), fmt::format("{}", count));
-  }
-  for (size_t c = 0; c < 3 * count; ++c) {
+  for (size_t c = 0; c < 3 * count; ++c)
     expect_cell(axes, kLeading + c, fmt::format("{}{}", "XYZ"[c % 3], c / 3 + 1), where, 5);
-  }
 }
 
 Eigen::Vector3d point_or_gap(std::span<const std::string_view> cells, double unit, const std::string& where,
@@ -94,9 +91,8 @@ MarkerFrame trc_frame(Cells cells, const About& about, const MarkerSequence& seq
                       const std::string& line) {
   without_empty_end(cells);
   const size_t columns = kLeading + 3 * about.markers;
-  if (cells.size() > columns) {
+  if (cells.size() > columns)
     throw Error(where, line, fmt::format("{} cells", cells.size()), fmt::format("{}", columns));
-  }
   cells.resize(columns);  // the last points of a line may be missing
   number_from(cells[0], 0, 1e9, where, line + ", Frame#");
   MarkerFrame frame;

@@ -80,9 +80,8 @@ std::vector<PostureSet> make_database_posture_sets(const PostureSet& gestures) {
 std::map<std::string, std::string> generate_data_files(const std::string& data_folder) {
   const PostureSet gestures = load_gestures(data_folder);
   std::map<std::string, std::string> files;
-  for (const PostureSet& set : make_database_posture_sets(gestures)) {
+  for (const PostureSet& set : make_database_posture_sets(gestures))
     files["postures/" + set.name + ".json"] = canonical_text(set);
-  }
   for (const std::string& name : script_names(data_folder)) {
     const std::string path = data_folder + "/scripts/" + name + ".json";
     const MotionScript script = parse_motion_script(read_file(path, kLargestMotionScript), gestures, path);

@@ -31,9 +31,8 @@ std::vector<size_t> low_dispersion_sample(const std::vector<Posture>& pool, cons
   while (sample.size() < count) {
     const auto farthest = std::ranges::max_element(distances) - distances.begin();
     sample.push_back(static_cast<size_t>(farthest));
-    for (size_t i = 0; i < pool.size(); ++i) {
+    for (size_t i = 0; i < pool.size(); ++i)
       distances[i] = std::min(distances[i], posture_distance(pool[i], pool[sample.back()]));
-    }
     distances[sample.back()] = -1;  // never twice, even in a pool of equal postures
   }
   return sample;

@@ -64,9 +64,8 @@ std::vector<Keyframe<Value>> keys_from(const JsonCursor& field, int frame_count,
     const auto frame = static_cast<int>(key["frame"].integer(first, last));
     keys.push_back({frame, value_from(key)});
   }
-  if (keys.back().frame != frame_count - 1) {
+  if (keys.back().frame != frame_count - 1)
     field.fail(fmt::format("the last key at frame {}", keys.back().frame), fmt::format("{}", frame_count - 1));
-  }
   return keys;
 }
 

@@ -14,9 +14,8 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string folder = argv[1];
-    for (const auto& [path, content] : trajectories::generate_data_files(folder)) {
+    for (const auto& [path, content] : trajectories::generate_data_files(folder))
       glovebench::write_file(folder + "/" + path, content);
-    }
     std::fputs(trajectories::source_properties_table(folder).c_str(), stdout);
   } catch (const glovebench::Error& e) {
     std::fprintf(stderr, "%s\n", e.what());

@@ -178,12 +178,11 @@ void DdsOtherWriters::refuse() {
     dds_sample_info_t info;
     if (dds_take(publications_, &sample, &info, 1, 1) <= 0) break;
     const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(sample);
-    if (info.instance_state != DDS_ALIVE_INSTANCE_STATE) {
+    if (info.instance_state != DDS_ALIVE_INSTANCE_STATE)
       writers_.erase(info.instance_handle);
-    } else if (endpoint.participant_instance_handle != own_ &&
-               std::ranges::find(topics_, endpoint.topic_name) != topics_.end()) {
+    else if (endpoint.participant_instance_handle != own_ &&
+             std::ranges::find(topics_, endpoint.topic_name) != topics_.end())
       writers_[info.instance_handle] = endpoint.topic_name;
-    }
     dds_return_loan(publications_, &sample, 1);
   }
   if (writers_.empty()) return;

@@ -79,11 +79,10 @@ MeasuredJoints::State MeasuredJoints::read(const ros::JointState& message) const
       continue;
     }
     const double position = message.position[static_cast<size_t>(found - message.name.begin())];
-    if (std::find(found + 1, message.name.end(), name) != message.name.end()) {
+    if (std::find(found + 1, message.name.end(), name) != message.name.end())
       state.fault = fmt::format("{} twice", name);
-    } else if (!std::isfinite(position)) {
+    else if (!std::isfinite(position))
       state.fault = fmt::format("{} at {}", name, position);
-    }
     state.positions.push_back(position);
   }
   if (!missing.empty()) state.fault = fmt::format("a state without {}", fmt::join(missing, ", "));

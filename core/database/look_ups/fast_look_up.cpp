@@ -168,9 +168,8 @@ RecycledVector<Candidate> nearest_by_bounds(const FieldRows& rows, const EntryDi
 
 RecycledVector<Candidate> first_stage(const Database& database, const LabelImage& query, size_t keep) {
   const FieldRows& rows = database.field_rows(query.width());
-  if (!rows.exact()) {
+  if (!rows.exact())
     return nearest_by_bounds(rows, EntryDistances(database, query), query, keep, database.entry_count());
-  }
   const RowSums sums = sum_rows(rows, query);
   return least_sums(std::span(sums.sums).first(database.entry_count()), keep);
 }

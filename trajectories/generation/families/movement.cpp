@@ -35,9 +35,8 @@ struct KeySource {
 /// True if all frames of the way fit. The last one is the likeliest not to.
 template <typename Value>
 bool way_fits(const KeySource<Value>& source, const Value& from, const Value& to, int frames) {
-  for (int f = frames; f > 0; --f) {
+  for (int f = frames; f > 0; --f)
     if (!source.fits(mix(from, to, minimum_jerk(static_cast<double>(f) / frames)))) return false;
-  }
   return true;
 }
 

@@ -60,9 +60,8 @@ std::vector<Surface::Face> faces_of_finger(const PosedHand& hand, int finger) {
   for (const Triangle& triangle : solid_test_hand().triangles()) {
     const auto& [a, b, c] = triangle.vertices;
     if (std::ranges::all_of(triangle.vertices,
-                            [&](uint32_t v) { return finger_of(solid_test_hand().influences()[v]) == finger; })) {
+                            [&](uint32_t v) { return finger_of(solid_test_hand().influences()[v]) == finger; }))
       faces.push_back({hand.vertices[a], hand.vertices[b], hand.vertices[c], 0});
-    }
   }
   return faces;
 }

@@ -49,13 +49,12 @@ LoggedStart MotionLog::start(const std::vector<double>& rest, int64_t now_us, do
   if (!last && !interval && tail.size() < kTailBytes) return start;
   start.source = path_;
   start.from = "log";
-  if (!last || !interval) {
+  if (!last || !interval)
     start.doubt = "the log does not say within which limits the joints were";
-  } else if (!is_one_step(*interval, joints_, period_s)) {
+  else if (!is_one_step(*interval, joints_, period_s))
     start.doubt = fmt::format("the log says only within {:.1f} degrees where a joint was", widest_deg(*interval));
-  } else if (!holds(*interval, last->positions)) {
+  else if (!holds(*interval, last->positions))
     start.doubt = "the log's last state is outside of its last interval";
-  }
   if (!last) return start;
   if (start.doubt.empty()) {  // else the joints are measured, and the log's state does not matter
     check_age(*last, now_us, max_age_s, path_);

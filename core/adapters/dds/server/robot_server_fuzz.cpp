@@ -170,11 +170,10 @@ void robot_server_fuzz(std::string_view bytes) {
       FuzzInput input(bytes);
       while (!input.empty()) {
         const uint8_t action = input.next<uint8_t>();
-        if (action % 3 == 0) {
+        if (action % 3 == 0)
           judge.tick(action, input);
-        } else {
+        else
           judge.receive(action, input);
-        }
       }
     }
   });

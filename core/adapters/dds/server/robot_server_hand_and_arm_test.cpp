@@ -167,11 +167,10 @@ TEST_F(RobotServerHandAndArm, NoFingertipLeavesTheWorkspaceHoweverTheHandIsBent)
   // Bent fingers would be out below or above, whichever way they bend.
   const TestFingertips::Tips straight = tips(last_);
   const bool down = straight.row(2).minCoeff() - lowest > highest - straight.row(2).maxCoeff();
-  if (down) {
+  if (down)
     limits_.workspace_min.z() = straight.row(2).minCoeff() - 0.02;
-  } else {
+  else
     limits_.workspace_max.z() = straight.row(2).maxCoeff() + 0.02;
-  }
   start();
   for (int i = 0; i < 100; ++i) {
     fingers(90);
