@@ -62,8 +62,9 @@ TEST(RgbdRenderer, TruthEqualsTheLabelRendererWhereTheForearmHidesNothing) {
   const HandImages alone = label_renderer.render_ids(test_hand(), hand, calibration.ir, T_camera_hand);
   EXPECT_EQ(images.label, alone.label);
   EXPECT_EQ(images.patch, alone.patch);
-  for (size_t i = 0; i < images.depth.size(); ++i)
+  for (size_t i = 0; i < images.depth.size(); ++i) {
     ASSERT_TRUE(alone.label[i] == 0 || images.depth[i] == alone.depth[i]);
+  }
 }
 
 TEST(RgbdRenderer, EverythingButTheArmLiesBeyondTheWorkingVolume) {
@@ -93,7 +94,9 @@ TEST(RgbdRenderer, ForearmContinuesTheCuffWithoutALabel) {
     EXPECT_LT(images.depth(u, v), 0.78) << along;
     EXPECT_GT(images.depth(u, v), 0.68) << along;
     // The cuff ends 60 mm past the wrist; its front edge is seen up to 5 mm beside the axis.
-    if (std::abs(along - 0.06) > 0.006) EXPECT_EQ(images.label(u, v) != 0, along < 0.06) << along;
+    if (std::abs(along - 0.06) > 0.006) {
+      EXPECT_EQ(images.label(u, v) != 0, along < 0.06) << along;
+    }
   }
 }
 
@@ -188,8 +191,9 @@ TEST(RgbdRenderer, ThreadsDrawBitForBitAsOne) {
   const PosedHand hand = test_hand().pose(test_posture());
   const auto draw = [&](int first, int step, std::vector<RgbdImages>* frames) {
     RgbdRenderer renderer(synthetic_calibration(), shared_hand(), {.shader = Shader::second_subject});
-    for (size_t i = first; i < frames->size(); i += step)
+    for (size_t i = first; i < frames->size(); i += step) {
       (*frames)[i] = renderer.render(hand, test_pose({0.03 * static_cast<double>(i), 0, 0.7}), {});
+    }
   };
   std::vector<RgbdImages> serial(4);
   draw(0, 1, &serial);

@@ -37,11 +37,14 @@ INSTANTIATE_TEST_SUITE_P(Sources, GroundTruth, ::testing::ValuesIn(ground_truth_
 
 TEST_P(GroundTruth, has_the_number_of_frames_and_the_rate_of_the_paper) {
   const std::map<std::string, int> printed = {{"Tr1", 137}, {"Tr4", 117}};  // curves of Figures 5 and 6
-  if (printed.contains(GetParam())) EXPECT_EQ(properties.frames, printed.at(GetParam()));
+  if (printed.contains(GetParam())) {
+    EXPECT_EQ(properties.frames, printed.at(GetParam()));
+  }
   EXPECT_GE(properties.frames, 117);
   EXPECT_LE(properties.frames, 150);
-  for (size_t i = 0; i < trajectory.frames.size(); ++i)
+  for (size_t i = 0; i < trajectory.frames.size(); ++i) {
     EXPECT_NEAR(static_cast<double>(trajectory.frames[i].timestamp_us), i * 1e6 / 15, 0.51);  // rounded to 1 us
+  }
 }
 
 TEST_P(GroundTruth, moves_like_a_hand_at_work) {
@@ -176,9 +179,10 @@ TEST(Gestures, pinch_brings_thumb_and_index_together) {
     return vertices;
   };
   float gap = 1;
-  for (const Eigen::Vector3f& thumb : vertices_moved_by(kThumbIpFlexion))
+  for (const Eigen::Vector3f& thumb : vertices_moved_by(kThumbIpFlexion)) {
     for (const Eigen::Vector3f& index : vertices_moved_by(kIndexDipFlexion))
       gap = std::min(gap, (thumb - index).norm());
+  }
   EXPECT_LT(gap, 0.004F);  // vertices of the mesh are about 4 mm apart
   const double tips = (hand.T_hand_joint[fingertip_joints()[0]].translation() -
                        hand.T_hand_joint[fingertip_joints()[1]].translation())
@@ -199,8 +203,9 @@ TEST(Gestures, end_joints_follow_the_middle_joints_and_the_wrist_is_straight) {
 }
 
 TEST(DataFiles, are_what_the_generator_makes) {
-  for (const auto& [path, content] : generate_data_files(kFolder))
+  for (const auto& [path, content] : generate_data_files(kFolder)) {
     EXPECT_TRUE(read_file(kFolder + "/" + path) == content) << path << ": run glovebench_trajectory_data";
+  }
 }
 
 TEST(DataFiles, can_be_written_like_the_example_of_the_readme) {

@@ -27,8 +27,9 @@ Eigen::Vector3d joint_position(const PosedHand& hand, const char* name) {
 
 void expect_closed(const HandModel& model) {
   std::map<std::pair<uint32_t, uint32_t>, int> edges;
-  for (const Triangle& t : model.triangles())
+  for (const Triangle& t : model.triangles()) {
     for (int i = 0; i < 3; ++i) ++edges[{t.vertices[i], t.vertices[(i + 1) % 3]}];
+  }
   for (const auto& [edge, count] : edges) {
     ASSERT_EQ(count, 1) << "edge used twice in one direction";
     ASSERT_TRUE(edges.contains({edge.second, edge.first})) << "open edge";
@@ -65,10 +66,12 @@ TEST(HandModel, cutting_adds_no_surface_and_loses_none) {
     return 0.5 * (b - a).cross(c - a).norm();
   };
   double before = 0, after = 0;
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : mesh.triangles) {
     before += area(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  for (const Triangle& t : cut.triangles)
+  }
+  for (const Triangle& t : cut.triangles) {
     after += area(cut.vertices[t.vertices[0]], cut.vertices[t.vertices[1]], cut.vertices[t.vertices[2]]);
+  }
   EXPECT_NEAR(after, before, 1e-12);
   EXPECT_GT(cut.triangles.size(), mesh.triangles.size());
 }
@@ -154,8 +157,9 @@ TEST(HandModel, wrist_angles_move_only_forearm_and_cuff) {
   const PosedHand straight = right_hand().pose(posture);
   posture[kWristFlexion] = radians_from_degrees(40);
   const PosedHand flexed = right_hand().pose(posture);
-  for (int j = 0; j < kForearmJoint; ++j)
+  for (int j = 0; j < kForearmJoint; ++j) {
     EXPECT_TRUE(flexed.T_hand_joint[j].isApprox(straight.T_hand_joint[j], 0)) << joint_name(j);
+  }
   // Flexing the wrist brings palm and forearm together: the forearm's end (+z) drops to the palmar side (-y).
   const Eigen::Vector3d end(0, 0, 0.05);
   EXPECT_LT((flexed.T_hand_joint[kForearmJoint] * end).y(), -0.02);
@@ -169,8 +173,9 @@ TEST(HandModel, left_hand_is_the_mirror_image) {
   posture[kRingPipFlexion] = 1.0;
   const PosedHand r = right_hand().pose(posture), l = left.pose(posture);
   ASSERT_EQ(r.vertices.size(), l.vertices.size());
-  for (size_t v = 0; v < r.vertices.size(); ++v)
+  for (size_t v = 0; v < r.vertices.size(); ++v) {
     ASSERT_EQ(l.vertices[v], Eigen::Vector3f(-r.vertices[v].x(), r.vertices[v].y(), r.vertices[v].z()));
+  }
 }
 
 TEST(HandModel, each_angle_moves_its_patches_and_no_other) {
@@ -191,8 +196,12 @@ TEST(HandModel, each_angle_moves_its_patches_and_no_other) {
       const double mean = sum.first / sum.second;
       const bool named = patches_moved()[a] >> patch & 1;
       // Blended weights at the borders move a neighbor a little; 20 degrees move the own patch by millimetres.
-      if (named) EXPECT_GT(mean, 0.0006) << angle_infos()[a].name << " patch " << patch;
-      if (!named) EXPECT_LT(mean, 0.0022) << angle_infos()[a].name << " patch " << patch;
+      if (named) {
+        EXPECT_GT(mean, 0.0006) << angle_infos()[a].name << " patch " << patch;
+      }
+      if (!named) {
+        EXPECT_LT(mean, 0.0022) << angle_infos()[a].name << " patch " << patch;
+      }
     }
   }
 }

@@ -94,7 +94,9 @@ TEST(RectifiedDevice, GivesWhatAPinholeWouldSee) {
         ASSERT_NEAR(frame->raw_disparity(u, v), disparity(u, v), 5) << u << ", " << v;
       }
       const Rgb& rgb = frame->color(u, v);
-      if (rgb[2] == 250) ASSERT_NEAR(rgb[0], color(u, v)[0], 2) << u << ", " << v;
+      if (rgb[2] == 250) {
+        ASSERT_NEAR(rgb[0], color(u, v)[0], 2) << u << ", " << v;
+      }
     }
   }
   EXPECT_GT(compared, 640 * 480 * 95 / 100);

@@ -73,8 +73,9 @@ TEST(Surface, keeps_the_faces_that_look_at_the_viewpoint) {
     const Eigen::Vector3d a = hand.vertices[v[0]].cast<double>(), b = hand.vertices[v[1]].cast<double>(),
                           c = hand.vertices[v[2]].cast<double>();
     const double facing = (b - a).cross(c - a).normalized().dot(viewpoint.cast<double>() - a);
-    if (std::abs(facing) > 1e-5)  // m; edge-on within rounding may fall either way
+    if (std::abs(facing) > 1e-5) {  // m; edge-on within rounding may fall either way
       EXPECT_EQ(kept[t], facing > 0) << t;
+    }
   }
 }
 
@@ -82,8 +83,9 @@ TEST(Surface, keeps_the_faces_that_look_at_the_viewpoint) {
 RecycledVector<LabeledPoint> points_around_the_hand(int count) {
   RandomStream random(1, "closest", 0, "points");
   RecycledVector<LabeledPoint> points;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
     points.push_back({random_point(random, 0.12), static_cast<uint8_t>(1 + random.index(kColorCount))});
+  }
   return points;
 }
 
@@ -97,8 +99,9 @@ TEST(ClosestPoints, plain_search_finds_the_nearest_face_of_the_color) {
     const auto& faces = surface.faces(points[i].label);
     EXPECT_EQ(closest[i].p_hand, closest_on_triangle(points[i].p, faces[closest[i].face]));
     EXPECT_FLOAT_EQ(closest[i].distance, (closest[i].p_hand - points[i].p).norm());
-    for (const Surface::Face& face : faces)
+    for (const Surface::Face& face : faces) {
       ASSERT_GE((closest_on_triangle(points[i].p, face) - points[i].p).norm(), closest[i].distance * 0.999999f);
+    }
   }
 }
 

@@ -78,8 +78,12 @@ TEST(ShadowCoupling, BetweenTwoStatesTheMotorGoesStraightAndWhatIsOffTheModelFad
         ASSERT_LE(joints.proximal, right);
         const double was_off = std::exchange(off, std::abs(joints.distal - split_motor(motor, coupling).distal));
         ASSERT_LE(off, was_off + kCouplingRounding);
-        if (share == 0) ASSERT_NEAR(joints.distal, distal, kCouplingRounding);
-        if (share == 1) ASSERT_NEAR(joints.distal, to.distal, kCouplingRounding);
+        if (share == 0) {
+          ASSERT_NEAR(joints.distal, distal, kCouplingRounding);
+        }
+        if (share == 1) {
+          ASSERT_NEAR(joints.distal, to.distal, kCouplingRounding);
+        }
       }
     }
   }

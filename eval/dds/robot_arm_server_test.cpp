@@ -180,7 +180,9 @@ TEST_F(RobotServerArm, HandAndArmGoOnWhereTheyWereKilledWhileTheStreamGoesOn) {
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("hand and arm: messages: "));
-  if (!had_gaps(run)) EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+  if (!had_gaps(run)) {
+    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+  }
   expect_safe(log);
   expect_slow_fingertips(log);
 }

@@ -59,7 +59,9 @@ TEST_F(RobotServer, RefusesWhatIsWrongAndGoesOn) {
   EXPECT_THAT(run.out, HasSubstr("hand: messages: 2 bad_time, 4 wrong_joints, 3 wrong_points, 2 not_finite, "));
   const int64_t went_back = received(log, "fingers", "went_back");
   EXPECT_EQ(good(log, "fingers") + went_back, 61 + 2 + 2);
-  if (!had_gaps(run)) EXPECT_EQ(went_back, 2);
+  if (!had_gaps(run)) {
+    EXPECT_EQ(went_back, 2);
+  }
   EXPECT_LE(last_angle(log, "rh_FFJ3"), 90);
   expect_safe(log);
 }
@@ -113,7 +115,9 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
   }
   finish(talk("wait hand\n" + fingers(20, 1) + "again 150 10000\n"));  // its time stamps start anew
   const ProgramRun run = stop(server, SIGTERM);
-  if (!had_gaps(run)) EXPECT_THAT(run.out, HasSubstr("streams: 2;"));
+  if (!had_gaps(run)) {
+    EXPECT_THAT(run.out, HasSubstr("streams: 2;"));
+  }
   EXPECT_NEAR(last_angle(log, "rh_FFJ3"), 20, 1e-6);
   expect_safe(log);
 }
@@ -134,7 +138,9 @@ TEST_F(RobotServer, GoesOnWhereItWasKilled) {
   EXPECT_EQ(finish(sender).out, "said\n") << "the stream goes on";
   const ProgramRun run = stop(server, SIGTERM);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  if (!had_gaps(run)) EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+  if (!had_gaps(run)) {
+    EXPECT_THAT(run.out, HasSubstr("streams: 1;"));
+  }
   expect_safe(log);
 }
 

@@ -111,7 +111,9 @@ TEST(Claims, NoTrifleSatisfiesARule) {
     const Rule& rule = claim.definition().rule;
     EXPECT_NE(rule.low, 0) << claim.id << ": a difference of next to nothing would do";
     const bool is_ratio = claim.definition().measure.ends_with("_share") && rule.low < 0;
-    if (is_ratio) EXPECT_LT(rule.high, 0.9) << claim.id << ": times of one machine differ by 8%";
+    if (is_ratio) {
+      EXPECT_LT(rule.high, 0.9) << claim.id << ": times of one machine differ by 8%";
+    }
   }
 }
 

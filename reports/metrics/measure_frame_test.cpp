@@ -36,8 +36,9 @@ TEST(MeasureFrame, PerfectEstimateHasNoError) {
   EXPECT_FALSE(record.false_tracked || record.false_lost);
   for (const auto& error : {record["position_error_mm"], record["rotation_error_deg"], record["posture_rms_deg"],
                             record["posture_mean_abs_deg"], record["posture_rms_unfiltered_deg"],
-                            record["vertex_error_mm"], record["joint_error_mm"], record["fingertip_error_mm"]})
+                            record["vertex_error_mm"], record["joint_error_mm"], record["fingertip_error_mm"]}) {
     EXPECT_NEAR(error.value(), 0, kRounding);
+  }
   EXPECT_FALSE(record["matching_error_px"]) << "no match, no matching error";
   EXPECT_FALSE(record["posture_rms_hidden_deg"]) << "no joint is hidden";
   EXPECT_FALSE(record["icp_residual_mm"]) << "a method without alignment has no residual";
@@ -55,8 +56,9 @@ TEST(MeasureFrame, TranslationMovesEveryPointAlike) {
   estimate.T_camera_hand.translation() += Eigen::Vector3d(0.003, -0.004, 0.012);
   const FrameRecord record = measure(estimate);
   for (const auto& error : {record["position_error_mm"], record["vertex_error_mm"], record["joint_error_mm"],
-                            record["fingertip_error_mm"]})
+                            record["fingertip_error_mm"]}) {
     EXPECT_NEAR(error.value(), 13, 1e-4) << "3-4-12-13; vertices are floats of under 0.2 m";
+  }
   EXPECT_NEAR(*record["rotation_error_deg"], 0, kRounding);
   EXPECT_NEAR(*record["posture_rms_deg"], 0, kRounding);
 }
@@ -96,10 +98,11 @@ TEST(MeasureFrame, OneJointMovesOnlyWhatHangsOnIt) {
   for (int joint = 0; joint < kForearmJoint; ++joint) {
     const bool moved =
         joint == joint_index("index-finger-phalanx-distal") || joint == joint_index("index-finger-tip");
-    if (moved)
+    if (moved) {
       EXPECT_GT(*errors.joint_errors_mm[joint], 5) << joint_name(joint);
-    else
+    } else {
       EXPECT_NEAR(*errors.joint_errors_mm[joint], 0, kRounding) << joint_name(joint);
+    }
   }
 }
 

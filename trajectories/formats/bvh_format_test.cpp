@@ -131,10 +131,11 @@ TEST(BvhFormat, JointsAreWhereTheSkeletonPutsThem) {
       const JointPoses joints = bvh_hand().skeleton().pose(bvh_posture(f));
       for (int j = 0; j < kWebxrJointCount; ++j) {
         const Eigen::Vector3d& point = sequence.frames[f].points[j];
-        if (joint_name(j).ends_with("finger-metacarpal"))
+        if (joint_name(j).ends_with("finger-metacarpal")) {
           EXPECT_FALSE(is_seen(point)) << "BVH has no such joint";
-        else  // written to 1e-6 degrees and units
+        } else {  // written to 1e-6 degrees and units
           EXPECT_LT((point - bvh_pose(f) * joints[j].translation()).norm(), 5e-6) << joint_name(j);
+        }
       }
     }
   }

@@ -139,7 +139,9 @@ TEST(FastLookUp, made_distances_are_the_stored_ones_or_above_the_limit) {
         ASSERT_EQ(distance(low, entry, query), distance(normal, entry, query));
         ASSERT_EQ(made.sum(entry, 1u << 31), sum) << size << " px, entry " << entry;
         ASSERT_EQ(made.sum(entry, sum), sum) << size << " px, entry " << entry;
-        if (sum > 0) ASSERT_GT(made.sum(entry, sum - 1), sum - 1) << size << " px, entry " << entry;
+        if (sum > 0) {
+          ASSERT_GT(made.sum(entry, sum - 1), sum - 1) << size << " px, entry " << entry;
+        }
       }
     }
   }
@@ -232,7 +234,9 @@ TEST_P(FastLookUpMemory, rows_bound_every_distance_from_below) {
       for (int entry = 0; entry < database.entry_count(); entry += 7) {
         const long sum = std::lround(distance(database, entry, query) * glove * kFieldScale);
         ASSERT_LE(sums[entry], sum) << size << " px, entry " << entry;
-        if (rows.exact()) ASSERT_EQ(sums[entry], sum) << size << " px, entry " << entry;
+        if (rows.exact()) {
+          ASSERT_EQ(sums[entry], sum) << size << " px, entry " << entry;
+        }
         ASSERT_EQ(std::min(65535u, rows.sum(entry, rows.rows_of(query))), sums[entry]);
       }
     }

@@ -53,8 +53,9 @@ TEST(ServerLog, ForgetsALineThatWasCutOff) {
       Optional(Field(&LoggedState::positions, ElementsAre(radians_from_degrees(1), radians_from_degrees(2))));
   for (size_t length = 0; length <= last.size(); ++length) {
     EXPECT_THAT(last_state(first + last.substr(0, length), kNames, "log"), expected) << length;
-    if (length < last.size())
+    if (length < last.size()) {
       EXPECT_THAT(last_state(first + last.substr(0, length) + "\n", kNames, "log"), expected) << length;
+    }
   }
 }
 
