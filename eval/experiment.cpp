@@ -14,7 +14,6 @@
 #include "eval/program.h"
 #include "eval/run_warnings.h"
 #include "eval/streaming.h"
-#include "eval/studies/sample.h"
 #include "eval/terminal.h"
 #include "reports/report.h"
 
@@ -28,9 +27,9 @@ reports::SequenceMetrics measure_sequences(const Experiment& experiment) {
   std::vector<reports::SequenceMetrics> seeds;
   for (const MeasuredRun* each : experiment.runs)
     seeds.push_back(measure_sequence(each->run.answers, frames_of(each->run.spec)));
-  return {mean_present(seeds, &reports::SequenceMetrics::jitter_position_mm),
-          mean_present(seeds, &reports::SequenceMetrics::jitter_rotation_deg),
-          mean_present(seeds, &reports::SequenceMetrics::latency_frames)};
+  return {reports::mean_present(seeds, &reports::SequenceMetrics::jitter_position_mm),
+          reports::mean_present(seeds, &reports::SequenceMetrics::jitter_rotation_deg),
+          reports::mean_present(seeds, &reports::SequenceMetrics::latency_frames)};
 }
 
 /// Of joints that no tracked frame has, nothing is known; they do not count.

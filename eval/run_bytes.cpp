@@ -115,7 +115,7 @@ T from_row(const json& row) {
     return row.is_null() ? T() : T(from_row<typename T::value_type>(row));
   } else if constexpr (Named<T>) {
     const std::optional<T> value = from_name<T>(row.get<std::string>());
-    if (!value) throw json::other_error::create(501, "no status", &row);
+    if (!value) throw json::other_error::create(501, "no such name", &row);
     return *value;
   } else if constexpr (Vector<T>) {
     return T::Map(row.get<std::array<double, T::SizeAtCompileTime>>().data());

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "core/base/hash.h"
 #include "core/base/math.h"

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/test_error.h"
 #include "eval/command_test.h"
 #include "eval/estimates/example_estimates.h"
 #include "eval/measured_run.h"
@@ -57,12 +57,7 @@ class ScoreOfText : public testing::Test {
     return warnings.empty() ? "" : warnings[0].get<std::string>();
   }
   std::string error_of(const std::string& name, const std::string& text) {
-    try {
-      score_text(name, text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return thrown_by([&] { score_text(name, text); });
   }
 
   std::string folder_;

@@ -20,6 +20,17 @@
 #include "render/pictures.h"
 
 namespace glovebench::eval {
+
+class PictureSink {
+ public:
+  virtual ~PictureSink() = default;
+  /// Numbers and times must rise.
+  /// Throws: Error.
+  virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
+  /// Throws: Error.
+  virtual void finish() {}
+};
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,8 +180,7 @@ std::vector<render::Stroke> bones_of(const PosedHand& posed, const Eigen::Isomet
   return bones;
 }
 
-}  // namespace
-
+/// Size in px.
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height) {
   const std::string ending = fs::path(path).extension();
   if (ending == ".mp4") return std::make_unique<Video>(path, width, height);
@@ -178,11 +188,16 @@ std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int widt
   return std::make_unique<PictureFolder>(path);
 }
 
+}  // namespace
+
 TrackOverlay::TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand,
                            const RgbdCalibration& calibration)
     : sink_(open_picture_sink(path, calibration.rgb.width, calibration.rgb.height)),
       hand_(std::move(hand)),
       calibration_(calibration) {}
+TrackOverlay::~TrackOverlay() = default;
+
+void TrackOverlay::finish() { sink_->finish(); }
 
 void TrackOverlay::add(int number, const DeviceFrame& frame, const TrackResult& result) {
   const std::string caption = fmt::format("frame {}  {}", number, to_string(result.status));

@@ -12,32 +12,22 @@
 
 namespace glovebench::eval {
 
-class PictureSink {
- public:
-  virtual ~PictureSink() = default;
-  /// Numbers and times must rise.
-  /// Throws: Error.
-  virtual void add(int number, int64_t timestamp_us, const ColorImage& picture) = 0;
-  /// Throws: Error.
-  virtual void finish() {}
-};
-
-/// A folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4) by ffmpeg, which is
-/// FILE.partial.mp4 until `finish`. Size in px.
-/// Throws: Error unless the folder is new or empty, for another ending, or without ffmpeg.
-std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, int width, int height);
+class PictureSink;
 
 /// Draws the tracked hand's outline and joints over color images.
 class TrackOverlay {
  public:
-  /// `path`: as open_picture_sink.
-  /// Throws: Error.
+  /// `path`: a folder of PNG files, FOLDER/000042.png, or a video of 30 frames/s (*.mp4) by ffmpeg, which is
+  /// FILE.partial.mp4 until `finish`.
+  /// Throws: Error unless the folder is new or empty, for another ending, or without ffmpeg.
   TrackOverlay(const std::string& path, std::shared_ptr<const HandModel> hand, const RgbdCalibration& calibration);
+  ~TrackOverlay();
 
   /// A lost frame shows the reason.
   /// Throws: Error.
   void add(int number, const DeviceFrame& frame, const TrackResult& result);
-  void finish() { sink_->finish(); }
+  /// Throws: Error.
+  void finish();
 
  private:
   ColorImage picture(const DeviceFrame& frame, const TrackResult& result);

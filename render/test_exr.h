@@ -66,9 +66,12 @@ inline FrameLayers parse_exr(const std::string& content, const std::string& wher
     stream.str(content);
     Imf::InputFile file(stream);
     expect_exr_size(file.header().dataWindow(), content.size(), where);
-    for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it)
-      if (std::ranges::find(channels, it.name()) == channels.end())
+    for (auto it = file.header().channels().begin(); it != file.header().channels().end(); ++it) {
+      const bool is_label = std::string_view(it.name()).ends_with("label");
+      if (std::ranges::find(channels, it.name()) == channels.end() ||
+          it.channel().type != (is_label ? Imf::UINT : Imf::FLOAT))
         throw Error(where, "channel", quoted_excerpt(it.name()), "those of a frame");
+    }
     FrameLayers layers{{},
                        read_exr_channel<float>(file, "Z"),
                        read_exr_labels(file, "label"),
@@ -76,7 +79,8 @@ inline FrameLayers parse_exr(const std::string& content, const std::string& wher
                        read_exr_labels(file, "tracker.label")};
     for (size_t c = 0; c < 3; ++c) {
       const Image<float> linear = read_exr_channel<float>(file, std::array{"R", "G", "B"}[c]);
-      if (layers.color.empty()) layers.color = ColorImage(linear.width(), linear.height());
+      if (c == 0) layers.color = ColorImage(linear.width(), linear.height());
+      if (linear.size() != layers.color.size()) throw Error(where, "colors", "some of R, G and B", "all or none");
       for (size_t i = 0; i < linear.size(); ++i)
         layers.color[i][c] = static_cast<uint8_t>(std::lround(255 * std::clamp(srgb_encode(linear[i]), 0.0, 1.0)));
     }

@@ -16,6 +16,14 @@ namespace glovebench::reports {
 // Throws: std::logic_error for a value that is not finite.
 
 std::optional<double> mean(std::span<const double> values);
+/// Mean of the values that are not empty.
+template <typename Range, typename Value = std::identity>
+std::optional<double> mean_present(Range&& range, const Value& value_of = {}) {
+  std::vector<double> present;
+  for (const auto& each : range)
+    if (const std::optional<double> value = std::invoke(value_of, each)) present.push_back(*value);
+  return mean(present);
+}
 std::optional<double> rms(std::span<const double> values);
 /// `share`: 0..1. Interpolates linearly at rank share * (n - 1).
 std::optional<double> percentile(std::span<const double> values, double share);

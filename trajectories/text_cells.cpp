@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator) {
+std::vector<std::string_view> cells_of(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
     const size_t end = parts.size() < kMostCells ? text.find(separator) : std::string_view::npos;
@@ -49,7 +49,7 @@ std::optional<std::string_view> Lines::next() {
 std::optional<CellRow> next_row(Lines& lines, size_t count, const std::string& where) {
   while (const std::optional<std::string_view> line = lines.next()) {
     if (trimmed(*line).empty()) continue;
-    CellRow row{split(*line, ','), fmt::format("line {}", lines.number())};
+    CellRow row{cells_of(*line, ','), fmt::format("line {}", lines.number())};
     if (row.cells.size() != count)
       throw Error(where, row.place, fmt::format("{} cells", row.cells.size()), fmt::format("{}", count));
     return row;
@@ -57,16 +57,9 @@ std::optional<CellRow> next_row(Lines& lines, size_t count, const std::string& w
   return std::nullopt;
 }
 
-std::optional<double> number_in(std::string_view cell) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-  if (error != std::errc{} || end != cell.data() + cell.size()) return {};
-  return number;
-}
-
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field) {
-  const std::optional<double> number = number_in(cell);
+  const std::optional<double> number = number_in<double>(cell);
   if (!number || !(*number >= min && *number <= max))
     throw Error(where, field, quoted_excerpt(cell), fmt::format("a number from {} to {}", min, max));
   return *number;

@@ -11,7 +11,7 @@ namespace glovebench::trajectories {
 std::string_view trimmed(std::string_view text);
 inline constexpr size_t kMostCells = 1000;
 /// Trimmed parts. After kMostCells the rest is one part.
-std::vector<std::string_view> split(std::string_view text, char separator);
+std::vector<std::string_view> cells_of(std::string_view text, char separator);
 
 /// Trimmed lines without byte order mark. An empty text is one empty line.
 class Lines {
@@ -36,8 +36,6 @@ struct CellRow {
 /// Throws: Error for another number of cells.
 std::optional<CellRow> next_row(Lines& lines, size_t count, const std::string& where);
 
-/// The number that fills the cell, also NaN or infinite.
-std::optional<double> number_in(std::string_view cell);
 /// Throws: Error unless the cell is a number from `min` to `max`.
 double number_from(std::string_view cell, double min, double max, const std::string& where,
                    const std::string& field);

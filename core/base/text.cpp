@@ -84,10 +84,10 @@ std::string excerpt(const nlohmann::json& value) {
   return value.dump();
 }
 
-std::vector<std::string_view> split(std::string_view text, char separator, size_t most) {
+std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
-    const size_t end = parts.size() + 1 < most ? text.find(separator) : std::string_view::npos;
+    const size_t end = text.find(separator);
     parts.push_back(text.substr(0, end));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);

@@ -20,8 +20,8 @@ std::string quoted_excerpt(std::string_view text);
 /// An excerpt of a value. Of an array or object: only its kind.
 std::string excerpt(const nlohmann::json& value);
 
-/// The parts between separators, at least one. The last of `most` parts has the rest of the text.
-std::vector<std::string_view> split(std::string_view text, char separator, size_t most = std::string_view::npos);
+/// The parts between separators, at least one.
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// The number that the whole text is, as std::from_chars reads it. Empty for anything else.
 template <typename Number>

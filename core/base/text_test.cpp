@@ -18,7 +18,6 @@ TEST(Split, keeps_empty_parts_and_what_is_beyond_the_last) {
   using Parts = std::vector<std::string_view>;
   EXPECT_EQ(split("", ','), Parts{""});
   EXPECT_EQ(split("a,,b,", ','), (Parts{"a", "", "b", ""}));
-  EXPECT_EQ(split("a,b,c", ',', 2), (Parts{"a", "b,c"}));
 }
 
 TEST(NumberIn, reads_the_whole_text_or_nothing) {

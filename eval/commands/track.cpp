@@ -24,7 +24,7 @@
 #include "eval/terminal.h"
 #include "eval/track_overlay.h"
 #include "render/label_renderer.h"
-#include "reports/page/page_frame.h"
+#include "reports/page/track_page.h"
 
 namespace glovebench::eval {
 namespace {

@@ -16,12 +16,12 @@ constexpr const char* kColorBlind = "color-blind";
 std::vector<std::optional<double>> latencies(const Selection& runs) {
   std::vector<std::optional<double>> result;
   for (const auto& stratum : sequences_of(runs))
-    result.push_back(mean_present(stratum, &reports::SequenceMetrics::latency_frames));
+    result.push_back(reports::mean_present(stratum, &reports::SequenceMetrics::latency_frames));
   return result;
 }
 
 std::optional<double> mean_of(const std::vector<std::optional<double>>& values, std::span<const int> drawn) {
-  return mean_present(drawn, [&](int i) { return values[i]; });
+  return reports::mean_present(drawn, [&](int i) { return values[i]; });
 }
 
 /// 1 in frames with a wrong look-up, else 0.

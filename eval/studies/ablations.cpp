@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "eval/studies/light_curves.h"
+#include "reports/statistics.h"
 #include "trajectories/catalog.h"
 
 namespace glovebench::eval {
@@ -32,7 +33,7 @@ std::vector<std::string> movements_for(const std::string& database) {
 Cell sequence_cell(const Selection& runs, std::optional<double> SequenceMetrics::*metric) {
   std::vector<SequenceMetrics> all;
   for (auto& sequences : sequences_of(runs)) append(all, std::move(sequences));
-  return cell(mean_present(all, metric));
+  return cell(reports::mean_present(all, metric));
 }
 
 std::vector<Cell> row_of(const Runs& runs, const Ablation& ablation, const AblationRow& row) {

@@ -37,13 +37,13 @@ std::optional<double> percent_of_three_quarters(const std::vector<ErrorSeries>& 
 }
 
 std::optional<double> mean_autocorrelation(const std::vector<ErrorSeries>& seeds) {
-  return mean_present(seeds, autocorrelation);
+  return reports::mean_present(seeds, autocorrelation);
 }
 
 std::optional<double> mean_error(const std::vector<ErrorSeries>& seeds) {
   ErrorSeries all;
   for (const ErrorSeries& errors : seeds) all.insert(all.end(), errors.begin(), errors.end());
-  return mean_present(all);
+  return reports::mean_present(all);
 }
 
 struct FilterRow {

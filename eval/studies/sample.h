@@ -20,14 +20,6 @@ struct Estimated {
 };
 
 std::optional<double> mean(const Sample& sample);
-/// Mean of the values that are not empty.
-template <typename Range, typename Value = std::identity>
-std::optional<double> mean_present(Range&& range, const Value& value_of = {}) {
-  std::vector<double> present;
-  for (const auto& each : range)
-    if (const std::optional<double> value = std::invoke(value_of, each)) present.push_back(*value);
-  return reports::mean(present);
-}
 Estimated estimate_mean(const Sample& sample);
 
 /// `combine` of the samples' means. All samples must have the same frames; these are resampled together.

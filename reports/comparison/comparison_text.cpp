@@ -5,21 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <vector>
 
 namespace glovebench::reports {
 namespace {
 
 constexpr std::string_view kWorseInPlaces = "worse in places";
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts(1);
-  for (const char c : text)
-    if (c == separator)
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  return parts;
-}
 
 /// Three digits if they fit, else fewer.
 std::string formatted(double value) {
@@ -130,16 +122,16 @@ std::vector<std::span<const ComparisonRow>> rows_by_experiment(const Comparison&
 
 std::string readable_experiment(const std::string& experiment) {
   if (experiment == kAllExperiments) return "all experiments";
-  const std::vector<std::string> parts = split(experiment, '_');
+  const std::vector<std::string_view> parts = split(experiment, '_');
   if (parts.size() < 6) return experiment;
   // Counted from the end, since names of trajectories and databases may contain underscores.
   const auto tail = parts.end() - 4;
-  const std::string &truth = tail[0], &subject = tail[1], &noise = tail[2], &factor = tail[3];
+  const std::string_view truth = tail[0], subject = tail[1], noise = tail[2], factor = tail[3];
   if ((truth != "source" && truth != "recorded") || !subject.starts_with("subject")) return experiment;
   std::string name = fmt::format("{}", fmt::join(parts.begin(), tail, "_"));
   if (const size_t database = name.find("_DB_"); database != std::string::npos)
     name = fmt::format("{} {}", name.substr(0, database), name.substr(database + 4));
-  name += ", " + truth;
+  name += fmt::format(", {}", truth);
   if (subject != "subject1") name += fmt::format(", subject {}", subject.substr(7));
   if (noise != "gradient" || factor != "1") name += fmt::format(", {} x {}", noise, factor);
   return name;

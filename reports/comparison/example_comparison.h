@@ -4,7 +4,6 @@
 
 #include "core/base/random.h"
 #include "reports/comparison/comparison_report.h"
-#include "reports/comparison/gate_rule.h"
 
 namespace glovebench::reports {
 
@@ -87,10 +86,13 @@ inline void append_example_experiment(Comparison& comparison, const ExperimentKe
     }
     const bool is_share = metric.is_share();
     const double mean = sum / count, reach = is_share ? 6 * mean : 0.06 + std::abs(mean) / 4;
-    ComparisonRow row = example_row(name, metric.key, is_share ? 1 : 3, mean, reach, Verdict::same);
-    row.verdict = verdict_of(row);
-    row.pairs = 2 * count;
-    comparison.rows.push_back(row);
+    const double minimum = is_share ? 1 : 0.1;
+    Verdict verdict = Verdict::not_enough_data;
+    if (mean - reach > 0 && mean > minimum) verdict = Verdict::worse;
+    if (mean + reach < 0 && mean < -minimum) verdict = Verdict::better;
+    if (mean - reach > -minimum && mean + reach < minimum) verdict = Verdict::same;
+    comparison.rows.push_back(example_row(name, metric.key, is_share ? 1 : 3, mean, reach, verdict));
+    comparison.rows.back().pairs = 2 * count;
   }
   comparison.frames.push_back(std::move(frames));
 }

@@ -1,3 +1,7 @@
+#include <array>
+#include <span>
+
+#include "core/camera/pinhole_camera.h"
 #include "reports/metrics/coverage.h"
 #include "reports/metrics/measure_frame.h"
 #include "reports/text.h"

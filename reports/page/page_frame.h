@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "reports/estimates.h"
-
 namespace glovebench::reports {
 
 struct Picture {
@@ -28,9 +26,5 @@ std::string chart_scripts(const nlohmann::ordered_json& tables, const std::vecto
 /// A document in the project's style, plus `style`.
 std::string html_document(const std::string& title, const std::string& body, const std::string& style = "",
                           const std::string& end = "");
-
-/// Counts of each status, path and angles over time. `scripts`: as in PageMaterial.
-std::string track_page(const std::string& title, const std::vector<Estimate>& estimates,
-                       const std::vector<std::string>& scripts);
 
 }  // namespace glovebench::reports

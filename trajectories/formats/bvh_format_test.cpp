@@ -4,6 +4,7 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/test_error.h"
 #include "trajectories/capture/fit_hand.h"
 #include "trajectories/formats/format.h"
 
@@ -164,13 +165,10 @@ TEST(BvhFormat, OfTwoHandsTheOneThatIsAskedFor) {
 std::string bvh_refusal(std::string text, const std::string& what, const std::string& by) {
   const size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
-  try {
-    read_bvh(text.replace(at, what.size(), by));
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.what();
-  }
-  return "accepted";
+  const std::string error = thrown_by([&] { read_bvh(text.replace(at, what.size(), by)); });
+  EXPECT_EQ(error.find('
+'), std::string::npos) << error;
+  return error;
 }
 
 TEST(BvhFormat, RefusalsNameThePlace) {

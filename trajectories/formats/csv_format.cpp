@@ -48,7 +48,7 @@ double read_headings(const std::vector<std::string_view>& headings, MarkerSequen
 MarkerSequence parse_csv(std::string_view text, Side, const std::string& where) {
   Lines lines(text);
   MarkerSequence sequence;
-  const double unit = read_headings(split(*lines.next(), ','), sequence, where);
+  const double unit = read_headings(cells_of(*lines.next(), ','), sequence, where);
   int64_t first_us = 0;
   while (const auto row = next_row(lines, 3 * sequence.names.size() + 1, where)) {
     const auto& [cells, line] = *row;

@@ -39,7 +39,7 @@ PostureSet parse_postures_csv(std::string_view text, const std::string& set_name
   if (!is_name(set_name)) throw Error(where, "file name", quoted_excerpt(set_name), kNameExpected);
 
   Lines lines(text);
-  expect_headings(split(*lines.next(), ','), where);
+  expect_headings(cells_of(*lines.next(), ','), where);
   PostureSet set{.name = set_name, .posture_names = {}, .postures = {}};
   std::set<std::string> names;
   while (const auto row = next_row(lines, kAngleCount + 1, where)) {

@@ -43,8 +43,8 @@ std::string_view value_of(std::string_view name, const Cells& names, const Cells
 }
 
 About about_file(std::span<const std::string_view> lines, const std::string& where) {
-  expect_cell(split(lines[0], '\t'), 0, "PathFileType", where, 1);
-  const Cells names = split(lines[1], '\t'), values = split(lines[2], '\t');
+  expect_cell(cells_of(lines[0], '\t'), 0, "PathFileType", where, 1);
+  const Cells names = cells_of(lines[1], '\t'), values = cells_of(lines[2], '\t');
   const auto count = [&](std::string_view name, double max) {
     const std::string field = fmt::format("line 3, {}", name);
     const std::string_view cell = value_of(name, names, values, where);
@@ -65,7 +65,7 @@ void without_empty_end(Cells& cells) {
 
 void read_names(std::span<const std::string_view> lines, size_t count, MarkerSequence& sequence,
                 const std::string& where) {
-  Cells names = split(lines[3], '\t'), axes = split(lines[4], '\t');
+  Cells names = cells_of(lines[3], '\t'), axes = cells_of(lines[4], '\t');
   expect_cell(names, 0, "Frame#", where, 4);
   expect_cell(names, 1, "Time", where, 4);
   without_empty_end(names);
@@ -125,9 +125,9 @@ MarkerSequence parse_trc(std::string_view text, Side, const std::string& where) 
   read_names(header, about.markers, sequence, where);
   int64_t first_us = 0;
   while (const std::optional<std::string_view> text_line = lines.next()) {
-    if (split(*text_line, '\t').size() == 1 && trimmed(*text_line).empty()) continue;
+    if (cells_of(*text_line, '\t').size() == 1 && trimmed(*text_line).empty()) continue;
     const std::string line = fmt::format("line {}", lines.number());
-    MarkerFrame frame = trc_frame(split(*text_line, '\t'), about, sequence, where, line);
+    MarkerFrame frame = trc_frame(cells_of(*text_line, '\t'), about, sequence, where, line);
     if (sequence.frames.empty()) first_us = frame.timestamp_us;
     add_frame(std::move(frame), first_us, text.size(), sequence, where, line + ", Time");
   }

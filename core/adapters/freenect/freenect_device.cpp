@@ -23,6 +23,7 @@
 #include "core/base/error.h"
 #include "core/kinect/disparity.h"
 #include "core/kinect/frame_pairer.h"
+#include "core/kinect/latest_queue.h"
 #include "core/kinect/recording_files.h"
 
 namespace glovebench {

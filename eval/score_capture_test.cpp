@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 
-#include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/base/random.h"
+#include "core/test_error.h"
 #include "eval/command_test.h"
 #include "eval/estimates/capture_alignment.h"
 #include "eval/program.h"
@@ -75,12 +75,7 @@ class CaptureAlignmentOf : public testing::Test {
     return align_to_capture(capture, answers, workbench().subject(1), *workbench().model(), "test");
   }
   static std::string refusal(const std::vector<HandFrame>& capture, const std::vector<TrackResult>& answers) {
-    try {
-      align(capture, answers);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return thrown_by([&] { align(capture, answers); });
   }
 };
 
