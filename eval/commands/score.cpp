@@ -18,7 +18,6 @@
 #include "reports/summary.h"
 #include "trajectories/capture/import_capture.h"
 #include "trajectories/formats/format.h"
-#include "trajectories/text_cells.h"
 
 namespace glovebench::eval {
 namespace {
@@ -122,7 +121,7 @@ struct ScoreCommand {
     if (command.given("--tolerance")) request.tolerance_ms = tolerance_ms;
     request.estimates_offset = time_offset == "estimate";
     if (request.estimates_offset || time_offset.empty()) return;
-    const std::optional<double> offset = trajectories::number_in(time_offset);
+    const std::optional<double> offset = number_in<double>(time_offset);
     constexpr double kLongest_ms = 1e13;
     if (!offset || !(std::abs(*offset) <= kLongest_ms))
       throw Error("--time-offset", "value", quoted_excerpt(time_offset), "milliseconds, or estimate");

@@ -161,7 +161,7 @@ void add_row(const Cells& cells, const Columns& columns, EstimateSequence& seque
 std::vector<EstimateSequence> read_columns(std::string_view bytes, const EstimateFlags& flags,
                                            const std::string& where) {
   trajectories::Lines lines(bytes);
-  const Cells headings = trajectories::split(*lines.next(), ',');
+  const Cells headings = trajectories::cells_of(*lines.next(), ',');
   std::vector<EstimateSequence> sequences(1);
   const Columns columns = Headings(headings, flags, where).read(sequences[0]);
   sequences[0].reserve(static_cast<size_t>(std::ranges::count(bytes, '\n')));

@@ -24,7 +24,7 @@ std::vector<EstimateSequence> read_tum(std::string_view bytes, const EstimateFla
   trajectories::Lines lines(bytes);
   while (const auto line = lines.next()) {
     std::vector<std::string_view> cells;
-    for (const std::string_view cell : trajectories::split(*line, ' '))
+    for (const std::string_view cell : trajectories::cells_of(*line, ' '))
       if (!cell.empty()) cells.push_back(cell);
     if (cells.empty() || cells.front().starts_with('#')) continue;
     const std::string field = fmt::format("line {}", lines.number());

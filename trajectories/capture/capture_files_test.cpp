@@ -49,8 +49,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 template <typename Parse>
 std::string refusal_of(Parse parse) {
   const std::string error = thrown_by(parse);
-  EXPECT_EQ(error.find('
-'), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   return error;
 }
 

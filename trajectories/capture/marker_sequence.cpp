@@ -46,7 +46,7 @@ int64_t timestamp_from(std::string_view cell, const std::string& where, const st
 Eigen::Vector3d point_from(std::span<const std::string_view> cells, double scale, const std::string& where,
                            const std::string& field) {
   const auto is_gap = [](std::string_view cell) {
-    const std::optional<double> number = number_in(cell);
+    const std::optional<double> number = number_in<double>(cell);
     return cell.empty() || (number && std::isnan(*number));
   };
   const auto gaps = std::ranges::count_if(cells, is_gap);

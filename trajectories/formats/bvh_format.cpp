@@ -43,7 +43,7 @@ class Words {
   }
   size_t count(size_t max) {
     const std::string_view word = next();
-    const std::optional<double> number = number_in(word);
+    const std::optional<double> number = number_in<double>(word);
     if (!number || *number != std::floor(*number) || !(*number >= 0 && *number <= static_cast<double>(max)))
       fail(word, fmt::format("a whole number from 0 to {}", max));
     return static_cast<size_t>(*number);

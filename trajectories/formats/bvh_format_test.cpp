@@ -166,8 +166,7 @@ std::string bvh_refusal(std::string text, const std::string& what, const std::st
   const size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   const std::string error = thrown_by([&] { read_bvh(text.replace(at, what.size(), by)); });
-  EXPECT_EQ(error.find('
-'), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   return error;
 }
 
