@@ -19,8 +19,12 @@ namespace {
 
 std::vector<EstimateSequence> sequences_of(const ScoreRequest& request) {
   std::vector<EstimateSequence> sequences = load_estimates(request.estimates, request.format, request.flags);
-  if (request.beside.empty()) return sequences;
-  return {merged(sequences.front(), load_estimates(request.beside, "", request.flags).front(), request.beside)};
+  if (!request.beside.empty())
+    sequences = {
+        merged(sequences.front(), load_estimates(request.beside, "", request.flags).front(), request.beside)};
+  if (sequences.front().joints.empty() && !(request.flags.frame.empty() && request.flags.order.joints.empty()))
+    throw Error(request.estimates, "estimates", "none of joints", "joints, because of --frame or --joints");
+  return sequences;
 }
 
 double ms_of(double us) { return us / 1000; }

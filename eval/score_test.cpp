@@ -157,7 +157,7 @@ TEST_F(ScoreOfText, TimesMatchWithinTheTolerance) {
 }
 
 TEST_F(ScoreOfText, ATimeOffsetIsEstimatedWithItsInterval) {
-  request_.spec.frames = {0, {}};
+  request_.spec.frames = {0, 60};
   for (const int64_t shift_us : {850'000L, 73'000L, 900'000'000'000L}) {
     std::vector<HandFrame> late(frames().begin(), frames().end());
     for (HandFrame& frame : late) frame.timestamp_us += shift_us;
@@ -260,6 +260,10 @@ TEST_F(ScoreOfText, ErrorsNameTheFlagThatWouldHelp) {
   request_.flags.units = "m";
   EXPECT_THAT(error_of("j.csv", columns), HasSubstr("found mm, expected m, as --units says"));
   EXPECT_THAT(warning_of("j.csv", without_units), HasSubstr("1000 times too large, as millimeters read as meters"));
+  request_.flags = {order_named("mediapipe"), "", "", ""};
+  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found none of joints"));
+  request_.flags = {{}, "", "wrist", ""};
+  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found none of joints"));
   request_.flags = {};
   json joints = json::parse(joints_text(frames(), subject(), order_named("mediapipe")));
   joints.erase("order");

@@ -40,9 +40,9 @@ std::string staged_folder(const std::string& folder) { return folder + "/.staged
 
 std::pair<std::string, ManifestEntry> entry_from(const JsonCursor& file, const std::string& where) {
   file.expect_keys({"name", "bytes", "hash"});
-  std::string name = file["name"].text();
+  const std::string name = file["name"].text();
   path_within(where, name);
-  return {std::move(name), {file["bytes"].unsigned_integer(), file["hash"].text()}};
+  return {name, {file["bytes"].unsigned_integer(), file["hash"].text()}};
 }
 
 /// The content of a file if it matches the manifest.

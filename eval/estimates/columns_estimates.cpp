@@ -7,6 +7,7 @@
 #include "core/base/math.h"
 #include "core/base/text.h"
 #include "eval/estimates/estimate_format.h"
+#include "reports/text.h"
 #include "trajectories/text_cells.h"
 
 namespace glovebench::eval {
@@ -116,7 +117,7 @@ class Headings {
     sequence.has.place = parts.place;
     sequence.has.scale = parts.scale;
     if (sequence.joints.size() < 4)
-      throw Error(where_, "line 1", fmt::format("{} joints", sequence.joints.size()), "four or more");
+      throw Error(where_, "line 1", reports::counted(sequence.joints.size(), "joint"), "four or more");
   }
   void require_all_taken(const EstimateSequence& sequence) const {
     for (size_t column = 0; column < taken_.size(); ++column) {

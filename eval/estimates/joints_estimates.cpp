@@ -6,6 +6,7 @@
 #include "core/base/parse_json.h"
 #include "core/base/text.h"
 #include "eval/estimates/estimate_format.h"
+#include "reports/text.h"
 
 namespace glovebench::eval {
 namespace {
@@ -83,7 +84,7 @@ void add_frame(const JsonCursor& frame, const JointsFile& file, EstimateSequence
   if (sequence.joints.empty()) sequence.joints = joints;
   if (sequence.joints != joints || joints.size() < 4)
     frame[file.positions].fail(
-        fmt::format("{} joints", joints.size()),
+        reports::counted(joints.size(), "joint"),
         sequence.joints.size() < 4 ? "four or more" : "those of the first frame with a hand, or null");
   sequence.add(time, TrackStatus::tracked, numbers, where, field);
 }
