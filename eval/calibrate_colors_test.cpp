@@ -82,7 +82,8 @@ TEST_F(CalibrateColorsLong, refuses_what_cannot_be_read_or_written) {
   EXPECT_THAT(refusal(calibrate("nothing", {"--picture", path("picture.jpg")})), HasSubstr("the ending .png"));
   EXPECT_THAT(refusal(calibrate("nothing", {"--frames", "0"})), HasSubstr("--frames"));
   EXPECT_THAT(refusal(calibrate("nothing", {"--space", "hsv"})), HasSubstr("--space"));
-  EXPECT_THAT(refusal(calibrate("nothing", {"--seeds", path("good.json")})), HasSubstr("good.json: key: found "));
+  EXPECT_THAT(refusal(calibrate("nothing", {"--seeds", path("good.json")})),
+              HasSubstr("good.json: top level: found unknown key"));
 
   write_file(path("damaged.table"), "glovebench color table, version 2, yuv\n");
   EXPECT_THAT(refusal(calibrate("nothing", {"--seeds", path("damaged.table")})), HasSubstr("damaged.table: size"));
