@@ -53,7 +53,7 @@ void read_bandwidth(benchmark::State& state, BytesTouched touched) {
       static_cast<double>(bytes), benchmark::Counter::kIsIterationInvariantRate, benchmark::Counter::kIs1000);
 }
 
-// What fits a core's own cache, and what is about the rows of a look-up or the frames here.
+// The near bytes fit a core's own cache. The far ones are about as many as a look-up's rows or the frames here.
 BENCHMARK_CAPTURE(read_bandwidth, near, BytesTouched{.near = 256 << 10})->Name(kNearBandwidth);
 BENCHMARK_CAPTURE(read_bandwidth, far, BytesTouched{.far = 64 << 20})->Name(kFarBandwidth);
 

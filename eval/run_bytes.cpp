@@ -67,7 +67,7 @@ concept Optional = requires(T value) {
 };
 template <typename T>
 concept Vector = std::is_same_v<T, Posture> || std::is_same_v<T, Eigen::Vector3d>;
-/// Of what JSON does not know by itself.
+/// A list that the JSON library does not convert by itself.
 template <typename T>
 concept List = requires(T list) {
   list.push_back(list.front());

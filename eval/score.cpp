@@ -23,7 +23,7 @@ std::vector<EstimateSequence> sequences_of(const ScoreRequest& request) {
     sequences = {
         merged(sequences.front(), load_estimates(request.beside, "", request.flags).front(), request.beside)};
   if (sequences.front().joints.empty() && !(request.flags.frame.empty() && request.flags.order.joints.empty()))
-    throw Error(request.estimates, "estimates", "none of joints", "joints, because of --frame or --joints");
+    throw Error(request.estimates, "estimates", "no joints", "joints, since --frame or --joints is given");
   return sequences;
 }
 

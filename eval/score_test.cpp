@@ -261,9 +261,9 @@ TEST_F(ScoreOfText, ErrorsNameTheFlagThatWouldHelp) {
   EXPECT_THAT(error_of("j.csv", columns), HasSubstr("found mm, expected m, as --units says"));
   EXPECT_THAT(warning_of("j.csv", without_units), HasSubstr("1000 times too large, as millimeters read as meters"));
   request_.flags = {order_named("mediapipe"), "", "", ""};
-  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found none of joints"));
+  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found no joints"));
   request_.flags = {{}, "", "wrist", ""};
-  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found none of joints"));
+  EXPECT_THAT(error_of("poses.tum", tum_text(frames())), HasSubstr("found no joints"));
   request_.flags = {};
   json joints = json::parse(joints_text(frames(), subject(), order_named("mediapipe")));
   joints.erase("order");

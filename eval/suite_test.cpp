@@ -5,6 +5,7 @@
 #include "ci/build_paths.h"
 #include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/test_error.h"
 #include "eval/test_program.h"
 #include "reports/results_json.h"
 #include "trajectories/generation/families/movement_family.h"
@@ -31,14 +32,9 @@ json make_suite() {
 }
 
 std::string refusal_of(const json& suite) {
-  try {
-    parse_suite(suite.dump(), "folder/mine.json");
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), AllOf(HasSubstr("folder/mine.json: "), Not(HasSubstr("\n"))));
-    return e.what();
-  }
-  ADD_FAILURE() << "not refused: " << suite;
-  return "";
+  const std::string error = thrown_by([&] { parse_suite(suite.dump(), "folder/mine.json"); });
+  EXPECT_THAT(error, AllOf(HasSubstr("folder/mine.json: "), Not(HasSubstr("\n")))) << suite;
+  return error;
 }
 
 /// The suite's own files lie in a folder of the test.
@@ -66,13 +62,7 @@ class SuitePlan : public testing::Test {
     return planned;
   }
   std::string refused_plan(const json& suite) const {
-    try {
-      plan(suite);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    ADD_FAILURE() << "not refused: " << suite;
-    return "";
+    return thrown_by([&] { plan(suite); });
   }
 
   const std::string folder_ = test_folder();
@@ -238,12 +228,9 @@ TEST_F(SuitePlan, FilterLeavesWhatMatches) {
   EXPECT_EQ(list_experiments(planned),
             "Tr4_DB_open_power_source_subject1_gradient_1   117 frames x 2 seeds\n"
             "own_DB_open_power_source_subject2_kinect_0.5     2 frames x 2 seeds\n");
-  try {
-    plan(make_suite(), "Tr5*");
-    ADD_FAILURE() << "nothing is left";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), AllOf(HasSubstr("Tr5*"), HasSubstr("Tr4_DB_open_power"), HasSubstr("--list")));
-  }
+  EXPECT_THAT(thrown_by([&] { plan(make_suite(), "Tr5*"); }),
+              AllOf(HasSubstr("Tr5*"), HasSubstr("Tr4_DB_open_power"), HasSubstr("--list")))
+      << "nothing is left";
 }
 
 TEST_F(SuitePlan, RefusesTrajectoriesThatDoNotFit) {
@@ -316,12 +303,7 @@ TEST_F(SuitePlan, FamiliesHoldsTenMovementsOfEach) {
 }
 
 TEST_F(SuitePlan, UnknownNamesAreListed) {
-  try {
-    load_suite("bogus");
-    ADD_FAILURE() << "loaded";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(), AllOf(HasSubstr("bogus"), HasSubstr("full, quick")));
-  }
+  EXPECT_THAT(thrown_by([] { load_suite("bogus"); }), AllOf(HasSubstr("bogus"), HasSubstr("full, quick")));
 }
 
 }  // namespace

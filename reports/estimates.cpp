@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <set>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
 #include "core/base/math.h"
+#include "core/base/text.h"
 #include "core/hand/posture.h"
 #include "reports/text.h"
 
@@ -79,22 +79,18 @@ class Line {
   template <typename Number>
   Number whole(size_t column) const {
     const std::string_view cell = cells_[column];
-    Number value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (error != std::errc() || end != cell.data() + cell.size() || std::to_string(value) != cell)
-      fail(column, "a whole number");
-    return value;
+    const std::optional<Number> value = number_in<Number>(cell);
+    if (!value || std::to_string(*value) != cell) fail(column, "a whole number");
+    return *value;
   }
 
   /// Accepts numbers as estimates_csv writes them, up to `largest`.
   double number(size_t column, double largest) const {
     const std::string_view cell = cells_[column];
-    double value = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    const bool is_number = error == std::errc() && end == cell.data() + cell.size() && std::abs(value) <= largest;
-    if (!is_number || number_text(column, value) != cell)
+    const std::optional<double> value = number_in<double>(cell);
+    if (!value || !(std::abs(*value) <= largest) || number_text(column, *value) != cell)
       fail(column, fmt::format("a number as `run` writes it, up to {}", largest));
-    return value;
+    return *value;
   }
 
   [[noreturn]] void fail(size_t column, const std::string& expected) const {

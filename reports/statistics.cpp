@@ -96,7 +96,7 @@ void check_config(const BootstrapConfig& config) {
         "a bootstrap has blocks, resamples and a level between 0 and 1");
 }
 
-/// Of the values of all draws; empty without values. `where`: "of this movement".
+/// The middle `level` of the statistic's values in all draws. Empty without values. `where`: "of this movement".
 std::optional<ConfidenceInterval> interval_of_draws(std::vector<double> values, const BootstrapConfig& config,
                                                     int seeds, int blocks, const std::string& where) {
   if (values.empty()) return std::nullopt;

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "reports/text.h"
 
 namespace glovebench::reports {
@@ -103,9 +103,7 @@ std::vector<size_t> widths_of(const std::vector<Texts>& lines, size_t first) {
 /// Numbers stay numbers.
 std::string without_formula(const std::string& text) {
   const bool looks_like_one = !text.empty() && std::string_view("=+-@\t\r\n").find(text[0]) != std::string::npos;
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+  const bool is_number = std::isfinite(number_in<double>(text).value_or(NAN));
   return looks_like_one && !is_number ? "'" + text : text;
 }
 

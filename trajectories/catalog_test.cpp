@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/whole_file.h"
+#include "core/test_error.h"
 #include "core/test_folder.h"
 #include "trajectories/posture_file.h"
 
@@ -56,12 +57,8 @@ TEST(Catalog, says_which_trajectories_there_are) {
   write_trajectory(named("wave"), trajectory_path(folder, TrajectoryKind::source, "wave"));
   EXPECT_EQ(source_trajectory(folder, "wave").name, "wave");
   for (const std::string missing : {"wavy", "../sources/wave", ""}) {
-    try {
-      source_trajectory(folder, missing);
-      ADD_FAILURE() << "found " << missing;
-    } catch (const Error& e) {
-      EXPECT_THAT(e.what(), HasSubstr("expected one of wave"));
-    }
+    EXPECT_THAT(thrown_by([&] { source_trajectory(folder, missing); }), HasSubstr("expected one of wave"))
+        << missing;
   }
 }
 

@@ -27,7 +27,7 @@ DepthImage depth_from_disparity(const Image<uint16_t>& raw);
 /// Drops depth beyond `z_max` (m).
 DepthImage depth_from_disparity(const Image<uint16_t>& raw, const OptionalLine& line,
                                 double z_max = std::numeric_limits<double>::infinity());
-/// Of a frame's disparity, or the depth that the device measured.
+/// Converts a frame's disparity, or takes the depth that the device measured.
 DepthImage depth_of(const DeviceFrame& frame, const OptionalLine& line,
                     double z_max = std::numeric_limits<double>::infinity());
 

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 #include <fnmatch.h>
 
-#include <charconv>
 #include <filesystem>
 
 #include "core/base/error.h"
@@ -85,11 +84,9 @@ struct Explain {
 
   reports::FrameRecord numbered_frame(const std::vector<reports::FrameRecord>& frames,
                                       const std::string& path) const {
-    int number = 0;
-    const auto read = std::from_chars(frame.data(), frame.data() + frame.size(), number);
-    if (read.ec != std::errc() || read.ptr != frame.data() + frame.size())
-      throw Error("explain", "frame", quoted_excerpt(frame), "a number, worst or worst:METRIC");
-    const auto found = std::ranges::find(frames, number, &reports::FrameRecord::frame);
+    const std::optional<int> number = number_in<int>(frame);
+    if (!number) throw Error("explain", "frame", quoted_excerpt(frame), "a number, worst or worst:METRIC");
+    const auto found = std::ranges::find(frames, *number, &reports::FrameRecord::frame);
     if (found != frames.end()) return *found;
     throw Error(path, "frame", frame,
                 frames.empty()

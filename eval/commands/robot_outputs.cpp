@@ -1,8 +1,7 @@
 #include "eval/commands/robot_outputs.h"
 
-#include <charconv>
-
 #include "core/base/error.h"
+#include "core/base/text.h"
 
 namespace glovebench::eval {
 
@@ -16,14 +15,11 @@ void BusFlags::add(Command command, const std::string& what) {
 int BusFlags::domain() const {
   constexpr std::string_view kDds = "dds";
   const std::string_view rest = std::string_view(middleware).substr(std::min(kDds.size(), middleware.size()));
-  int domain = 0;
-  bool known = middleware.starts_with(kDds);
-  if (known && !rest.empty()) {
-    const auto [stop, error] = std::from_chars(rest.data() + 1, rest.data() + rest.size(), domain);
-    known = rest[0] == ':' && error == std::errc() && stop == rest.data() + rest.size() && domain >= 0;
-  }
-  if (!known) throw Error("--robot", "middleware", middleware, "dds or dds:DOMAIN");
-  return domain;
+  std::optional<int> domain;
+  if (middleware == kDds) domain = 0;
+  if (middleware.starts_with(kDds) && rest.starts_with(':')) domain = number_in<int>(rest.substr(1));
+  if (domain.value_or(-1) < 0) throw Error("--robot", "middleware", middleware, "dds or dds:DOMAIN");
+  return *domain;
 }
 
 RobotOutputs::RobotOutputs(const std::string& file, const std::optional<RobotBusOptions>& bus) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/base/error.h"
@@ -15,36 +14,12 @@
 #include "eval/suite.h"
 #include "eval/terminal.h"
 #include "reports/comparison/comparison_report.h"
-#include "reports/estimates.h"
 #include "reports/report.h"
 #include "reports/summary.h"
 #include "trajectories/formats/format.h"
 
 namespace glovebench::eval {
 namespace {
-
-Estimator stored_estimates(const std::string& path, uint64_t seed) {
-  return [estimates = reports::read_estimates(path), seed](const DeviceFrame&, int number) {
-    return reports::find_hand(estimates, seed, number);
-  };
-}
-
-/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: rendered frames, truth, and estimates of
-/// FOLDER/estimates/.
-/// Throws: Error.
-void write_run_mcaps(Workbench& workbench, const Plan& plan, const std::string& folder) {
-  const FrameFormat& mcap = find_frame_format("mcap");
-  std::vector<reports::ExperimentKey> written;
-  for (const RunSpec& spec : plan.specs) {
-    const reports::ExperimentKey key = key_of(spec);
-    if (std::ranges::find(written, key) != written.end()) continue;
-    written.push_back(key);
-    const Dataset dataset{folder, to_string(key), workbench.calibration(), workbench.model(),
-                          dataset_readme(mcap, spec)};
-    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed), mcap,
-                 dataset);
-  }
-}
 
 struct RunCommand {
   explicit RunCommand(Command own_command) : command(own_command) {}
@@ -96,7 +71,7 @@ struct RunCommand {
   void run_plan(Workbench& workbench, const Plan& plan) {
     common.check_report_folder();
     const auto [result, timings] = carry_out(workbench, plan, robot.output_of(workbench), common.output);
-    if (mcap) write_run_mcaps(workbench, plan, common.output);
+    if (mcap) write_run_mcaps(workbench, plan.specs, common.output);
     warn(lost_hand_warnings(plan, result, common.output));
     if (common.quiet) return;
     if (!find_table(result.studies, "families"))
@@ -125,7 +100,7 @@ struct RunCommand {
       const Plan planned = with_tracker(plan, trackers[s]);
       const Outcome outcome =
           report_runs(workbench, planned, runs[s], {kOneJob, start, false}, robot_output, folders.back());
-      if (mcap) write_run_mcaps(workbench, planned, folders.back());
+      if (mcap) write_run_mcaps(workbench, planned.specs, folders.back());
       warn(lost_hand_warnings(planned, outcome.result, folders.back()));
       for (const reports::StudyResult& study : outcome.result.studies)
         if (study.name == kStreamingStudy) streamed.emplace_back(settings[s].name, study);

@@ -14,6 +14,7 @@
 #include "core/robot/command_guard.h"
 #include "core/robot/shadow_kinematics.h"
 #include "core/robot/test_commands.h"
+#include "core/test_error.h"
 #include "eval/command_test.h"
 #include "eval/commands/robot_outputs.h"
 #include "eval/dds/test_programs.h"
@@ -127,12 +128,7 @@ class DdsController : public DdsBus {
     }
   }
   static std::string refusal(const RobotBusOptions& options) {
-    try {
-      RobotOutputs outputs("", options);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    return thrown_by([&] { RobotOutputs outputs("", options); });
   }
 };
 

@@ -21,8 +21,7 @@ struct EstimateSequence {
   std::vector<int64_t> timestamps_us;
   std::vector<TrackStatus> statuses;
   std::vector<size_t> begins;  ///< of each frame's numbers
-  /// Of each tracked frame: 22 angles (rad), position (m) and quaternion w x y z, joints (m), as far as it has
-  /// them.
+  /// Each tracked frame adds what the file has: 22 angles (rad), position (m) and quaternion w x y z, joints (m).
   std::vector<double> numbers;
 
   size_t size() const { return timestamps_us.size(); }

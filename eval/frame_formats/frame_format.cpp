@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "core/base/registry.h"
 #include "eval/program.h"
 #include "eval/terminal.h"
+#include "reports/estimates.h"
 #include "reports/text.h"
 
 namespace glovebench::eval {
@@ -24,8 +28,13 @@ The program that rendered the files is glovebench, MIT License, Copyright (c)
 )";
 constexpr std::string_view kMeshLicense =
     "the hand is generic-hand/right.glb of npm's\n@webxr-input-profiles/assets 1.0.20, MIT License, Copyright (c) "
-    "2019 "
-    "Amazon.";
+    "2019 Amazon.";
+
+Estimator stored_estimates(const std::string& path, uint64_t seed) {
+  return [estimates = reports::read_estimates(path), seed](const DeviceFrame&, int number) {
+    return reports::find_hand(estimates, seed, number);
+  };
+}
 
 }  // namespace
 
@@ -59,6 +68,20 @@ void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& es
     progress.show(static_cast<double>(f + 1) / static_cast<double>(frames.size()));
   }
   writer->finish();
+}
+
+void write_run_mcaps(Workbench& workbench, std::span<const RunSpec> specs, const std::string& folder) {
+  const FrameFormat& mcap = find_frame_format("mcap");
+  std::vector<reports::ExperimentKey> written;
+  for (const RunSpec& spec : specs) {
+    const reports::ExperimentKey key = key_of(spec);
+    if (std::ranges::find(written, key) != written.end()) continue;
+    written.push_back(key);
+    const Dataset dataset{folder, to_string(key), workbench.calibration(), workbench.model(),
+                          dataset_readme(mcap, spec)};
+    write_frames(workbench, spec, stored_estimates(folder + "/" + reports::estimates_file(key), spec.seed), mcap,
+                 dataset);
+  }
 }
 
 }  // namespace glovebench::eval

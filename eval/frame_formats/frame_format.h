@@ -63,4 +63,9 @@ using Estimator = std::function<std::optional<HandFrame>(const DeviceFrame& imag
 void write_frames(Workbench& workbench, const RunSpec& spec, const Estimator& estimate, const FrameFormat& format,
                   const Dataset& dataset);
 
+/// Writes FOLDER/EXPERIMENT.mcap of each experiment's first seed: rendered frames, truth, and estimates of
+/// FOLDER/estimates/.
+/// Throws: Error.
+void write_run_mcaps(Workbench& workbench, std::span<const RunSpec> specs, const std::string& folder);
+
 }  // namespace glovebench::eval

@@ -1,8 +1,8 @@
-#include <charconv>
 #include <limits>
 
 #include "core/adapters/freenect/live_kinect.h"
 #include "core/base/error.h"
+#include "core/base/text.h"
 #include "eval/sources/source.h"
 #include "eval/terminal.h"
 
@@ -12,12 +12,9 @@ namespace {
 constexpr std::string_view kUsage = "freenect[:INDEX]";
 
 int device_index(const std::string& argument) {
-  int index = 0;
-  const char* end = argument.data() + argument.size();
-  const auto [stop, error] = std::from_chars(argument.data(), end, index);
-  if (!argument.empty() && (error != std::errc() || stop != end || index < 0))
-    throw Error("--source", "index", argument, std::string(kUsage));
-  return index;
+  const std::optional<int> index = argument.empty() ? 0 : number_in<int>(argument);
+  if (index.value_or(-1) < 0) throw Error("--source", "index", argument, std::string(kUsage));
+  return *index;
 }
 
 TrackSource open_freenect(const std::string& argument, const SourceFlags& flags, bool) {

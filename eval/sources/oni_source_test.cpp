@@ -6,7 +6,7 @@
 
 #include "core/adapters/openni2/oni_player.h"
 #include "core/adapters/openni2/test_camera.h"
-#include "core/base/error.h"
+#include "core/test_error.h"
 #include "eval/command_test.h"
 #include "eval/sources/source.h"
 
@@ -42,12 +42,7 @@ std::string oni_image(uint32_t node, uint64_t time_us, size_t bytes = 3) {
 const std::string kOniEnd = oni_record(11, 0);
 
 std::string oni_refusal(const std::string& file) {
-  try {
-    parse_oni_times(file, "a.oni");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  return thrown_by([&] { parse_oni_times(file, "a.oni"); });
 }
 
 TEST(OniTimes, AreThoseOfDepthAndColorUpToTheEnd) {

@@ -25,7 +25,7 @@ class CapsuleHand {
   const std::string& hash() const { return hash_; }
 
   const HandDimensions& dimensions() const { return dimensions_; }
-  /// Of the right hand; a left hand mirrors it.
+  /// The right hand's; a left hand mirrors it.
   const Skeleton& skeleton() const { return skeleton_; }
   const std::vector<HandCapsule>& capsules() const { return capsules_; }
   /// Field value at each vertex (glove, folds), m. NaN at the cuff's flat end.

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "ci/build_paths.h"
-#include "core/base/error.h"
+#include "core/test_error.h"
 #include "render/rgbd_renderer.h"
 #include "render/subjects/surface_net.h"
 #include "render/test_hand.h"
@@ -29,13 +29,9 @@ TEST(Subject, TheFirstTwoAreTheTrackersMesh) {
 
 TEST(Subject, RefusesANumberThatNoneHas) {
   for (const int number : {0, 23, -1}) {
-    try {
-      subject(number);
-      FAIL() << number;
-    } catch (const Error& e) {
-      EXPECT_THAT(std::string(e.what()), testing::AllOf(testing::HasSubstr("found " + std::to_string(number)),
-                                                        testing::HasSubstr("expected 1 to 22")));
-    }
+    EXPECT_THAT(thrown_by([&] { subject(number); }),
+                testing::AllOf(testing::HasSubstr("found " + std::to_string(number)),
+                               testing::HasSubstr("expected 1 to 22")));
   }
 }
 

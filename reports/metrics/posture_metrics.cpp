@@ -6,7 +6,7 @@ namespace {
 
 using Chosen = std::array<bool, kAngleCount>;
 
-/// Of the chosen angles; empty if none is chosen.
+/// The mean over the chosen angles. Empty if none is chosen.
 std::optional<double> mean_of(const Posture& values, const Chosen& chosen) {
   double sum = 0;
   int count = 0;

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/test_error.h"
 #include "trajectories/generation/natural_variation.h"
 
 namespace glovebench::trajectories {
@@ -32,12 +32,7 @@ json example_script() {
 MotionScript parse(const json& document) { return parse_motion_script(document.dump(), gestures(), "script.json"); }
 
 std::string script_complaint(const json& document) {
-  try {
-    parse(document);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no complaint";
+  return thrown_by([&] { parse(document); });
 }
 
 TEST(MinimumJerk, starts_and_ends_at_rest) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <numbers>
 
 #include "core/base/error.h"
 #include "core/base/math.h"
+#include "core/base/text.h"
 #include "core/camera/rgbd_calibration.h"
 #include "trajectories/catalog.h"
 #include "trajectories/generation/families/solid_hand.h"
@@ -231,9 +231,8 @@ std::string movement_name(const MovementFamily& family, uint64_t seed) {
 std::optional<NamedMovement> find_movement(std::string_view name) {
   for (const MovementFamily& family : movement_families()) {
     if (!name.starts_with(family.name)) continue;
-    uint64_t seed = 0;
     const std::string_view digits = name.substr(std::min(name.size(), family.name.size() + 1));
-    std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+    const uint64_t seed = number_in<uint64_t>(digits).value_or(0);
     if (seed <= kMostMovements && name == movement_name(family, seed)) return NamedMovement{&family, seed};
   }
   return std::nullopt;

@@ -9,6 +9,7 @@
 #include "core/camera/rgbd_calibration.h"
 #include "core/cloud/labeled_cloud.h"
 #include "core/hand/hand_model.h"
+#include "core/test_error.h"
 #include "trajectories/generation/families/solid_hand.h"
 #include "trajectories/generation/motion_script.h"
 #include "trajectories/trajectory_properties.h"
@@ -169,13 +170,9 @@ TEST(Movement, captured_ones_rest_at_postures_of_people) {
 TEST(Movement, without_a_posture_that_fits_is_refused) {
   MovementMaterial material = test_material();
   material.least_distance_deg = 90;
-  try {
-    generate_movement(find_movement_family("side"), 3, material);
-    ADD_FAILURE() << "no posture is so far away";
-  } catch (const Error& e) {
-    EXPECT_THAT(e.what(),
-                AllOf(HasSubstr("side_3: ranges: found none of"), HasSubstr("90 deg"), Not(HasSubstr("\n"))));
-  }
+  EXPECT_THAT(thrown_by([&] { generate_movement(find_movement_family("side"), 3, material); }),
+              AllOf(HasSubstr("side_3: ranges: found none of"), HasSubstr("90 deg"), Not(HasSubstr("\n"))))
+      << "no posture is so far away";
 }
 
 TEST(Movement, is_found_by_its_name) {

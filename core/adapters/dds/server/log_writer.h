@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,7 +16,7 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines in its own thread. A lost line still updates the file's time.
+/// Appends lines in one thread and syncs them in another. A lost line still updates the file's time.
 class LogWriter {
  public:
   /// Throws: Error if the file cannot be opened, or another LogWriter has this regular file.
@@ -29,7 +30,7 @@ class LogWriter {
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;     ///< written or lost up to this line
+    uint64_t done = 0;     ///< written and synced, or lost, up to this line
     uint64_t durable = 0;  ///< lines `failed` + 1 to this one are on the disk; 0: device or pipe
     uint64_t failed = 0;   ///< this or an earlier line may be lost
     int64_t lost = 0;
@@ -44,9 +45,10 @@ class LogWriter {
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
+  static void sync_lines(const std::shared_ptr<Shared>& shared);
 
   std::shared_ptr<Shared> shared_;
-  std::thread thread_;
+  std::array<std::thread, 2> threads_;
 };
 
 }  // namespace glovebench
