@@ -299,7 +299,7 @@ std::vector<Sight> see(Workbench& workbench, const RunSpec& spec) {
   render::SyntheticKinect kinect = make_kinect(workbench, spec);
   std::vector<Sight> seen;
   for (const HandFrame& truth : frames_of(spec)) {
-    check(kinect.next_frame().has_value(), "the device plays every frame of the trajectory");
+    check(kinect.render_next(), "the device plays every frame of the trajectory");
     seen.push_back(sight_of(kinect.truth(), visible_percent_of(kinect, subject, truth), spec.tracker));
   }
   return seen;

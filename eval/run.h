@@ -73,7 +73,7 @@ struct RunOptions {
 /// spec, before any work.
 std::vector<Run> execute(Workbench& workbench, std::span<const RunSpec> specs, const RunOptions& options);
 
-/// By frame. Noise does not change it.
+/// By frame. Renders without noise.
 std::vector<Sight> see(Workbench& workbench, const RunSpec& spec);
 
 /// Hash of all inputs except the program.

@@ -35,14 +35,18 @@ SyntheticKinect::SyntheticKinect(const RgbdCalibration& calibration, Subject sub
   require_possible(config_.noise);
 }
 
-std::optional<DeviceFrame> SyntheticKinect::next_frame() {
-  if (next_ == frames_.size()) return std::nullopt;
-  const HandFrame& frame = frames_[next_];
+bool SyntheticKinect::render_next() {
+  if (next_ == frames_.size()) return false;
+  const HandFrame& frame = frames_[next_++];
   hand_ = subject_.pose(frame.posture);
   truth_ = renderer_.render(hand_, frame.T_camera_hand, config_.lighting);
+  return true;
+}
+
+std::optional<DeviceFrame> SyntheticKinect::next_frame() {
   const FrameKey key{config_.seed, config_.sequence, config_.first_frame + static_cast<int64_t>(next_)};
-  ++next_;
-  return make_device_frame(truth_, calibration(), frame.timestamp_us, config_.noise, key);
+  if (!render_next()) return std::nullopt;
+  return make_device_frame(truth_, calibration(), frames_[next_ - 1].timestamp_us, config_.noise, key);
 }
 
 const RgbdImages& SyntheticKinect::truth() const {

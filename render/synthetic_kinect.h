@@ -33,6 +33,8 @@ class SyntheticKinect : public Device {
 
   const RgbdCalibration& calibration() const override { return renderer_.calibration(); }
   std::optional<DeviceFrame> next_frame() override;
+  /// The same without the device's frame and its noise. False at the end.
+  bool render_next();
 
   /// The last frame's ideal images. Truth is for the evaluator only.
   const RgbdImages& truth() const;
