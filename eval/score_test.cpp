@@ -105,6 +105,7 @@ TEST_F(ScoreOfText, PosesWithAnglesBesideThemAreAHand) {
 }
 
 TEST_F(ScoreOfText, JointsOfEachOrderHaveNoErrors) {
+  request_.spec.frames = {kFirst, 5};
   for (const JointOrder& order : joint_orders()) {
     const bool has_tips = order.name != "mano16";
     const int metrics = has_tips ? kMetricsOfJoints : kMetricsOfJoints - 1;

@@ -33,9 +33,19 @@ std::vector<float> make_normal_quantiles() {
 
 }  // namespace
 
-float RowRandom::normal() {
+RowRandom::RowRandom(uint64_t seed) : seed_(seed) {
   static const std::vector<float> quantiles = make_normal_quantiles();
-  return quantiles[next16()];
+  quantiles_ = quantiles.data();
+}
+
+void RowRandom::normals(std::span<float> values) const {
+  const int count = static_cast<int>(values.size()), whole = count / 4 * 4;
+  float* value = values.data();
+  for (int i = 0; i < whole; i += 4) {
+    const uint64_t four = word(i / 4);
+    for (int k = 0; k < 4; ++k) *value++ = quantiles_[static_cast<uint16_t>(four >> (16 * k))];
+  }
+  for (int i = whole; i < count; ++i) *value++ = normal(i);
 }
 
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows) {
@@ -49,11 +59,13 @@ ColorImage add_color_noise(const ColorImage& color, double sigma_gray, const Fra
   const std::vector<uint64_t> seeds = row_seeds(key, "color noise", color.height());
   const auto sigma = static_cast<float>(sigma_gray);
   ColorImage noisy = color;
+  std::vector<float> normals(3 * static_cast<size_t>(color.width()));
   for (int v = 0; v < color.height(); ++v) {
-    RowRandom random(seeds[v]);
-    for (int u = 0; u < color.width(); ++u) {
-      for (uint8_t& channel : noisy(u, v)) {
-        const float value = static_cast<float>(channel) + sigma * random.normal();
+    RowRandom(seeds[v]).normals(normals);
+    const float* normal = normals.data();
+    for (Rgb& pixel : std::span(noisy.row(v), static_cast<size_t>(noisy.width()))) {
+      for (uint8_t& channel : pixel) {
+        const float value = static_cast<float>(channel) + sigma * *normal++;
         channel = static_cast<uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
       }
     }

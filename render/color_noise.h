@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -14,35 +15,30 @@ struct FrameKey {
   int64_t frame = 0;
 };
 
-/// Random numbers of one image row (SplitMix64).
+/// The random numbers of one image row (SplitMix64), each by its place: 0, 1, ...
 class RowRandom {
  public:
-  explicit RowRandom(uint64_t state) : state_(state) {}
+  explicit RowRandom(uint64_t seed);
 
   /// Standard normal, up to 4.3 sigma.
-  float normal();
+  float normal(int i) const { return quantiles_[bits(i)]; }
+  /// The first `normals`.
+  void normals(std::span<float> values) const;
   /// [0, 1)
-  float uniform() { return static_cast<float>(next16()) * 0x1p-16f; }
+  float uniform(int i) const { return static_cast<float>(bits(i)) * 0x1p-16f; }
 
  private:
-  uint16_t next16() {
-    if (left_ == 0) {
-      state_ += 0x9e3779b97f4a7c15u;
-      word_ = state_;
-      word_ = (word_ ^ (word_ >> 30)) * 0xbf58476d1ce4e5b9u;
-      word_ = (word_ ^ (word_ >> 27)) * 0x94d049bb133111ebu;
-      word_ ^= word_ >> 31;
-      left_ = 4;
-    }
-    const auto value = static_cast<uint16_t>(word_);
-    word_ >>= 16;
-    --left_;
-    return value;
+  /// Four numbers.
+  uint64_t word(int i) const {
+    uint64_t word = seed_ + 0x9e3779b97f4a7c15u * (static_cast<uint64_t>(i) + 1);
+    word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9u;
+    word = (word ^ (word >> 27)) * 0x94d049bb133111ebu;
+    return word ^ (word >> 31);
   }
+  uint16_t bits(int i) const { return static_cast<uint16_t>(word(i / 4) >> (16 * (i % 4))); }
 
-  uint64_t state_;
-  uint64_t word_ = 0;
-  int left_ = 0;
+  uint64_t seed_;
+  const float* quantiles_;  ///< of the 2^16 numbers
 };
 
 std::vector<uint64_t> row_seeds(const FrameKey& key, std::string_view purpose, int rows);

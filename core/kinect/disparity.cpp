@@ -32,8 +32,10 @@ float depth_from_disparity(uint16_t raw) { return raw < kDepths.size() ? kDepths
 
 uint16_t disparity_from_depth(double z) {
   if (!(z > 0) || !std::isfinite(z)) return kNoDisparity;
-  const double raw = std::round(kDisparityAtInfinity - kNumerator / z);
-  return raw >= 0 && raw <= kMaxDisparity ? static_cast<uint16_t>(raw) : kNoDisparity;
+  const double steps = kDisparityAtInfinity - kNumerator / z;
+  if (!(steps > -0.5 && steps < kMaxDisparity + 0.5)) return kNoDisparity;
+  const auto whole = static_cast<int>(steps);
+  return static_cast<uint16_t>(steps - whole >= 0.5 ? whole + 1 : whole);  // as std::round, which is a call
 }
 
 float depth_from_disparity(uint16_t raw, const OptionalLine& line) {

@@ -72,13 +72,13 @@ DepthImage add_kinect_noise(const DepthImage& depth, const PinholeCamera& camera
   const float cosine_from = std::cos(from);
   DepthImage noisy(depth.width(), depth.height());
   for (int v = 0; v < depth.height(); ++v) {
-    RowRandom random(seeds[v]);
+    const RowRandom random(seeds[v]);
     for (int u = 0; u < depth.width(); ++u) {
-      // All numbers are drawn for every pixel, so that a change in one place leaves the noise elsewhere as it was.
-      const float shift_u = lateral_px * random.normal();
-      const float shift_v = lateral_px * random.normal();
-      const double disparity_noise = config.kinect.disparity_sigma_steps * random.normal();
-      const float chance = random.uniform();
+      // Each pixel has its own numbers, so that a change in one place leaves the noise elsewhere as it was.
+      const float shift_u = lateral_px * random.normal(4 * u);
+      const float shift_v = lateral_px * random.normal(4 * u + 1);
+      const double disparity_noise = config.kinect.disparity_sigma_steps * random.normal(4 * u + 2);
+      const float chance = random.uniform(4 * u + 3);
       if (depth(u, v) <= 0 || shadow(u, v)) continue;
       const float cosine = incidence_cosine(depth, u, v, camera);
       if (cosine < cosine_from && chance < (std::acos(cosine) - from) / (to - from)) continue;

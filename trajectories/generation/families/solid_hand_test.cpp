@@ -85,9 +85,11 @@ double deepest_in_mesh(const Posture& posture) {
   double deepest = 0;
   for (int finger = 0; finger < 5; ++finger) {
     const std::vector<Surface::Face> faces = faces_of_finger(hand, finger);
+    Eigen::AlignedBox3f box;
+    for (const Surface::Face& face : faces) box.extend(face.a).extend(face.b).extend(face.c);
     for (size_t v = 0; v < hand.vertices.size(); ++v) {
       const int own = finger_of(solid_test_hand().influences()[v]);
-      if (own == finger || own == 5) continue;
+      if (own == finger || own == 5 || !box.contains(hand.vertices[v])) continue;
       double distance = 1;
       for (const Surface::Face& face : faces)
         distance =
