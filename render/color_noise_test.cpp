@@ -2,8 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 namespace glovebench::render {
 namespace {
+
+TEST(RowRandom, GivesTheWordsOfSplitMix64FromTheirLowEnd) {
+  const RowRandom random(0);  // 0xe220a8397b1dcdaf, 0x6e789e6aa1b965f4, ...
+  const std::array<int, 5> words = {0xcdaf, 0x7b1d, 0xa839, 0xe220, 0x65f4};
+  std::array<float, 5> normals{};
+  random.normals(normals);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(random.uniform(i), static_cast<float>(words[i]) / 65536);
+    EXPECT_EQ(random.normal(i), normals[i]);
+    EXPECT_EQ(normals[i] > 0, words[i] >= 0x8000) << "quantiles rise";
+  }
+}
 
 TEST(ColorNoise, HasItsSigmaAndNoBias) {
   const ColorImage clean(320, 240, Rgb{100, 128, 200});

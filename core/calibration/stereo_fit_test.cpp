@@ -120,7 +120,7 @@ Errors errors_of(const RgbdCalibration& found, const RgbdCalibration& truth) {
               Eigen::AngleAxisd(found.T_rgb_ir.linear() * truth.T_rgb_ir.linear().transpose()).angle())};
 }
 
-/// Fits to four times noise of 0.3 px in each coordinate; the largest of what the fits err by.
+/// Fits to `seeds` times noise of 0.3 px in each coordinate; the largest of what the fits err by.
 Errors worst_with_noise(const Session& session, LensModel lens, int seeds, const char* title) {
   Errors squares, worst;
   for (int seed = 1; seed <= seeds; ++seed) {

@@ -64,6 +64,9 @@ TEST(Noise, FlatSurfacesAndHolesStayAsTheyAre) {
   DepthImage depth(64, 48, 0.8f);
   for (int v = 0; v < 48; ++v) depth(20, v) = 0.0f;
   EXPECT_EQ(add_depth_noise(depth, kCamera, NoiseConfig{}, kKey), depth);
+  DepthImage slope = slanted_plane(0.7, 0.5);
+  slope(20, 30) = 0;
+  EXPECT_EQ(add_depth_noise(slope, kCamera, NoiseConfig{}, kKey)(20, 30), 0);
 }
 
 TEST(Noise, DependsOnTheKeyAloneNotOnOrder) {

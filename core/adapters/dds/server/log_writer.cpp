@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
@@ -23,7 +22,7 @@ namespace glovebench {
 namespace {
 
 constexpr size_t kMostBytes = 4 << 20;  // waiting; half a minute of a busy log
-constexpr std::chrono::seconds kFarewell{2}, kSyncPeriod{1};
+constexpr std::chrono::seconds kSyncPeriod{1};
 
 /// Locks a file, for as long as it is open.
 void lock_file(int descriptor, const std::string& path) {
@@ -69,22 +68,19 @@ struct LogWriter::Shared {
   std::pair<int64_t, int> append(const std::string& lines);
   /// Why the file's name does not lead to all that was written; empty if it does.
   std::string misplaced() const;
-  /// Up to line `number`, after a write or a sync.
-  void note(uint64_t number, const std::string& misplaced, int error);
 
+  // The thread's own.
   const std::string path;
   int descriptor;
   bool is_regular = false;
-  std::atomic<off_t> size = 0;  ///< with all that was written
-  bool is_cut = false;          ///< the file does not end with a whole line; the writing thread's own
+  off_t size = 0;       ///< with all that was written
+  bool is_cut = false;  ///< the file does not end with a whole line
 
   mutable std::mutex mutex;
   std::condition_variable changed;
   std::string waiting;  ///< lines, without the last line end
-  uint64_t pushed = 0;
-  uint64_t urgent = 0;   ///< the last urgent line
-  uint64_t written = 0;  ///< or lost, up to this line
-  bool ending = false, written_all = false, synced_all = false;
+  uint64_t pushed = 0;  ///< lines
+  bool urgent = false, ending = false, ended = false;
   Progress progress;
 };
 
@@ -127,32 +123,27 @@ std::pair<int64_t, int> LogWriter::Shared::append(const std::string& lines) {
   return {lost, written.error};
 }
 
-void LogWriter::Shared::note(uint64_t number, const std::string& misplaced, int error) {
-  progress.misplaced = !misplaced.empty();
-  if (misplaced.empty() && error == 0) return;
-  progress.failed = number;
-  if (progress.failure.empty()) progress.failure = error == 0 ? misplaced : std::strerror(error);
+LogWriter::LogWriter(const std::string& path) : shared_(std::make_shared<Shared>(path)) {
+  thread_ = std::thread([shared = shared_] { write_lines(shared); });
 }
-
-LogWriter::LogWriter(const std::string& path)
-    : shared_(std::make_shared<Shared>(path)),
-      threads_{std::thread(write_lines, shared_), std::thread(sync_lines, shared_)} {}
 
 LogWriter::~LogWriter() { finish(); }
 
-void LogWriter::finish() {
-  if (!threads_.front().joinable()) return;
+void LogWriter::finish(std::chrono::seconds longest) {
+  if (!thread_.joinable()) return;
   std::unique_lock lock(shared_->mutex);
   shared_->ending = true;
   shared_->changed.notify_all();
-  const bool ended = shared_->changed.wait_for(lock, kFarewell, [&] { return shared_->synced_all; });
-  if (Progress& progress = shared_->progress; shared_->pushed > shared_->written) {
-    progress.lost += static_cast<int64_t>(shared_->pushed - shared_->written);
-    if (progress.failure.empty()) progress.failure = "a disk that does not answer";
+  if (shared_->changed.wait_for(lock, longest, [&] { return shared_->ended; })) {
+    lock.unlock();
+    thread_.join();
+    return;
   }
-  lock.unlock();
-  // A thread that the disk blocks ends with the process or when the disk answers.
-  for (std::thread& thread : threads_) ended ? thread.join() : thread.detach();
+  // The disk blocks the thread, which ends with the process or when the disk answers.
+  Progress& progress = shared_->progress;
+  progress.lost += static_cast<int64_t>(shared_->pushed - progress.done);
+  if (progress.failure.empty()) progress.failure = "a disk that does not answer";
+  thread_.detach();
 }
 
 uint64_t LogWriter::push(const std::string& line, bool urgent) {
@@ -165,10 +156,9 @@ uint64_t LogWriter::push(const std::string& line, bool urgent) {
   }
   if (!shared_->waiting.empty()) shared_->waiting += '\n';
   shared_->waiting += line;
+  shared_->urgent |= urgent;
   shared_->changed.notify_all();
-  ++shared_->pushed;
-  if (urgent) shared_->urgent = shared_->pushed;
-  return shared_->pushed;
+  return ++shared_->pushed;
 }
 
 LogWriter::Progress LogWriter::progress() const {
@@ -177,47 +167,36 @@ LogWriter::Progress LogWriter::progress() const {
 }
 
 void LogWriter::write_lines(const std::shared_ptr<Shared>& shared) {
+  auto synced = std::chrono::steady_clock::now();
   std::unique_lock lock(shared->mutex);
-  while (!shared->written_all) {
+  for (;;) {
     shared->changed.wait(lock, [&] { return shared->ending || !shared->waiting.empty(); });
     const bool last = shared->ending;
     const std::string lines = std::exchange(shared->waiting, "");
     const uint64_t number = shared->pushed;
+    bool sync = std::exchange(shared->urgent, false) || last;
     lock.unlock();
     auto [lost, error] = lines.empty() ? std::pair<int64_t, int>() : shared->append(lines);
+    const auto now = std::chrono::steady_clock::now();
+    sync |= now - synced >= kSyncPeriod;
+    if (sync) synced = now;
+    if (const int failed = sync ? sync_file(shared->descriptor) : 0; error == 0) error = failed;
     const std::string misplaced = shared->misplaced();
+    const std::string failure = !misplaced.empty() ? misplaced : error != 0 ? std::strerror(error) : "";
     if (!misplaced.empty()) lost = lines.empty() ? 0 : std::ranges::count(lines, '\n') + 1;
     lock.lock();
-    shared->progress.lost += lost;
-    shared->note(number, misplaced, error);
-    shared->written = number;
-    shared->written_all = last;
-    shared->changed.notify_all();
-  }
-}
-
-void LogWriter::sync_lines(const std::shared_ptr<Shared>& shared) {
-  auto start = std::chrono::steady_clock::now();
-  Progress& progress = shared->progress;
-  std::unique_lock lock(shared->mutex);
-  while (!shared->synced_all) {
-    shared->changed.wait(lock, [&] { return shared->written_all || shared->written > progress.done; });
-    shared->changed.wait_until(lock, start + kSyncPeriod, [&] {
-      return shared->written_all || (shared->urgent > progress.done && shared->written >= shared->urgent);
-    });
-    start = std::chrono::steady_clock::now();
-    const bool last = shared->written_all;
-    const uint64_t number = shared->written;
-    lock.unlock();
-    const int error = sync_file(shared->descriptor);
-    const std::string misplaced = shared->misplaced();
-    lock.lock();
-    shared->note(number, misplaced, error);
-    if (misplaced.empty() && error == 0 && shared->is_regular) progress.durable = number;
+    Progress& progress = shared->progress;
     progress.done = number;
-    shared->synced_all = last;
+    progress.lost += lost;
+    progress.misplaced = !misplaced.empty();
+    if (!failure.empty()) progress.failed = number;
+    if (failure.empty() && sync && shared->is_regular) progress.durable = number;
+    if (progress.failure.empty()) progress.failure = failure;
+    if (!last) continue;
+    shared->ended = true;
+    shared->changed.notify_all();
+    return;
   }
-  shared->changed.notify_all();
 }
 
 }  // namespace glovebench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,7 +16,7 @@ int64_t changed_us(const std::string& path);
 /// Throws: Error.
 std::string read_tail(const std::string& path, uint64_t max_bytes);
 
-/// Appends lines in one thread and syncs them in another. A lost line still updates the file's time.
+/// Appends lines in its own thread. A lost line still updates the file's time.
 class LogWriter {
  public:
   /// Throws: Error if the file cannot be opened, or another LogWriter has this regular file.
@@ -30,7 +30,7 @@ class LogWriter {
   uint64_t push(const std::string& line, bool urgent = false);
 
   struct Progress {
-    uint64_t done = 0;     ///< written and synced, or lost, up to this line
+    uint64_t done = 0;     ///< written or lost up to this line
     uint64_t durable = 0;  ///< lines `failed` + 1 to this one are on the disk; 0: device or pipe
     uint64_t failed = 0;   ///< this or an earlier line may be lost
     int64_t lost = 0;
@@ -39,16 +39,15 @@ class LogWriter {
   };
   Progress progress() const;
 
-  /// Waits up to 2 s for the disk. Drops the rest.
-  void finish();
+  /// Waits for the disk, which other writers may keep busy for seconds. Drops the rest.
+  void finish(std::chrono::seconds longest = std::chrono::seconds(8));
 
  private:
   struct Shared;
   static void write_lines(const std::shared_ptr<Shared>& shared);
-  static void sync_lines(const std::shared_ptr<Shared>& shared);
 
   std::shared_ptr<Shared> shared_;
-  std::array<std::thread, 2> threads_;
+  std::thread thread_;
 };
 
 }  // namespace glovebench

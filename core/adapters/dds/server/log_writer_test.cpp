@@ -113,7 +113,7 @@ TEST_F(LogWriterTest, ADiskThatHangsHoldsNobodyUp) {
     EXPECT_LT(taken, 9000U) << "what waits is bounded";
     EXPECT_GT(taken, 1000U);
     EXPECT_GT(writer.progress().lost, 0);
-    writer.finish();
+    writer.finish(std::chrono::seconds(1));
     EXPECT_THAT(writer.progress().failure, HasSubstr("disk that"));
     EXPECT_GE(writer.progress().lost, 9'900) << "all but what the pipe took";
   }
