@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/base/file_set.h"
+#include "eval/program.h"
 #include "eval/regression/baseline.h"
 #include "reports/comparison/comparison_report.h"
 #include "reports/summary.h"
@@ -113,7 +114,7 @@ void write_settings_table(const std::string& folder, const reports::SettingsTabl
   files.add("table.md", settings_markdown(table));
   files.add("table.csv", settings_csv(table));
   files.add("table.tex", settings_latex(table));
-  files.add("index.html", settings_html(table));
+  files.add("index.html", settings_html(table, page_scripts()));
   for (const reports::StudyResult& study : studies) {
     files.add(study.name + ".md", study_markdown(study));
     for (const reports::Table& each : study.tables) files.add(each.name + ".csv", to_csv(each));

@@ -10,6 +10,8 @@
 #include "core/base/whole_file.h"
 #include "reports/claims/claims_report.h"
 #include "reports/comparison/example_comparison.h"
+#include "reports/comparison/example_runs.h"
+#include "reports/comparison/settings_table.h"
 #include "reports/example_result.h"
 #include "reports/metrics/example_measured.h"
 #include "reports/page/example_material.h"
@@ -33,6 +35,15 @@ glovebench::reports::Timings example_timings() {
   timings.commit = "0123456789";
   timings.date = "2026-01-01T00:00:00Z";
   return timings;
+}
+
+glovebench::reports::SettingsTable example_settings() {
+  using namespace glovebench::reports;
+  const auto setting = [](const char* name, double shift_mm, double time_ms) {
+    return SettingRun{example_named(name, {noisy_experiment("Tr4", {1, 2}, 96, "a", shift_mm)}), time_ms};
+  };
+  return compare_settings({setting("paper", 0, 6), setting("recommended", -1, 25), setting("exact-3", -0.1, 7)},
+                          {.metrics = headline_metrics()});
 }
 
 }  // namespace
@@ -64,6 +75,8 @@ int main(int argc, char** argv) {
     write_comparison(comparison, report);
     write_comparison(comparison + "/small", small_comparison());
     glovebench::write_file(comparison + "/incomparable.xml", incomparable_junit("a.json: seeds: found <1>\n\x01"));
+    glovebench::write_file(std::string(argv[1]) + "/settings.html",
+                           settings_html(example_settings(), page_scripts()));
     std::fputs(figure4_table(result, paper_numbers(), {}).c_str(), stdout);
     std::fputs(claims_table(judge(claims(), all_measures(result))).c_str(), stdout);
     std::fputs(comparison_table(report, false).c_str(), stdout);

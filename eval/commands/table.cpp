@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "eval/commands/flags.h"
+#include "eval/program.h"
 #include "eval/settings_run.h"
 #include "eval/terminal.h"
 
@@ -21,7 +22,7 @@ struct TableCommand {
     if (format == "markdown") return fmt::print("{}", settings_markdown(table));
     if (format == "csv") return fmt::print("{}", settings_csv(table));
     if (format == "latex") return fmt::print("{}", settings_latex(table));
-    if (format == "html") return fmt::print("{}", settings_html(table));
+    if (format == "html") return fmt::print("{}", settings_html(table, page_scripts()));
     fmt::print("{}",
                quiet ? to_text(table.table, true, terminal_columns()) : settings_text(table, terminal_columns()));
   }

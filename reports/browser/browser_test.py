@@ -259,6 +259,18 @@ def check_own_run(browser, folder):
     check_bars(browser, "own run", "errors-rotation")
 
 
+def check_settings(browser, folder):
+    """A point of each setting in the panel of each quantity."""
+    page = folder / "settings.html"
+    open_page(browser, page, "light")
+    check_silence(browser, page, "settings")
+    expect(browser.execute_script("return glovebench.missing") == [], "settings: the chart has no data")
+    expected, points = browser.execute_script("""
+        const means = glovebench.tables.settings.filter(row => row.quantity !== 'time_ms' && row.mean !== null);
+        return [means.length, document.querySelectorAll('[data-chart="settings"] .mark-symbol.role-mark path').length];""")
+    expect(expected == points and points >= 12, f"settings: {points} points, {expected} means")
+
+
 def check_print(browser):
     pdf = base64.b64decode(browser.execute_cdp_cmd("Page.printToPDF", {})["data"])
     expect(pdf.startswith(b"%PDF") and len(pdf) > 20_000, f"the printed page has {len(pdf)} bytes")
@@ -308,6 +320,7 @@ def main():
             check_print(browser)
             check_comparison(browser, folder)
             check_own_run(browser, folder)
+            check_settings(browser, folder)
             check_without_scripts(browser, page)
         finally:
             browser.quit()

@@ -26,7 +26,7 @@ std::string settings_markdown(const SettingsTable& settings) {
   return text + "\n" + escape_markdown(settings.explanation) + "\n";
 }
 
-std::string settings_html(const SettingsTable& settings) {
+std::string settings_html(const SettingsTable& settings, const std::vector<std::string>& scripts) {
   std::string body =
       "<p>" + escape_html(settings.recommendation) + "</p>\n<h2>Errors and times</h2>\n" + to_html(settings.table);
   if (!settings.changes.rows.empty())
@@ -35,7 +35,14 @@ std::string settings_html(const SettingsTable& settings) {
     body += "<p>Enough data would be, if further movements vary as these do:</p>\n<ul>\n";
   for (const std::string& line : settings.enough) body += "<li>" + escape_html(line) + "</li>\n";
   if (!settings.enough.empty()) body += "</ul>\n";
-  return html_document("glovebench settings", body + "<p>" + escape_html(settings.explanation) + "</p>\n");
+  body += "<p>" + escape_html(settings.explanation) + "</p>\n";
+  std::string end;
+  if (settings.has_times) {
+    body += "<h2>Errors against time</h2>\n" +
+            chart_place("settings", "Each error of each setting against the time of a frame");
+    end = chart_scripts({{"settings", settings_csv(settings)}}, scripts);
+  }
+  return html_document("glovebench settings", body, "", end);
 }
 
 std::string settings_csv(const SettingsTable& settings) {

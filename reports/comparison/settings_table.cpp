@@ -276,7 +276,7 @@ std::string recommendation_of(const std::vector<Compared>& all, const Compared& 
   return text + basis_of(*reference.setting, metrics, unshared(all));
 }
 
-std::string explanation_of(const SettingsTable& settings, bool has_times) {
+std::string explanation_of(const SettingsTable& settings) {
   return fmt::format(
       "Means are over the frames that have a value, then over the experiments that all runs have. Differences are "
       "from {}{}, frame by frame over the frames that both have; above zero is worse. The intervals low to high "
@@ -284,7 +284,7 @@ std::string explanation_of(const SettingsTable& settings, bool has_times) {
       "Verdicts as in `glovebench compare`. {}",
       settings.reference, settings.is_paper ? ", the paper's settings" : ", the first run",
       settings.config.block_frames, settings.config.confidence_percent(),
-      has_times
+      settings.has_times
           ? "time_ms: medians of the stages of a frame, added up, processor time of one thread while no other "
             "job of the command ran. Times have no verdict: they were measured once, and those of equal "
             "settings differ, too."
@@ -316,12 +316,12 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
   settings.preselected = pairing.metrics;
   settings.experiments = experiments_of(*reference, unshared(all));
   for (const SettingRun& each : runs) settings.runs[each.run.name] = run_name(each.run.result);
-  const bool has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
-  settings.table = table_of_all(all, first, metrics, has_times);
+  settings.has_times = std::ranges::any_of(runs, [](const SettingRun& each) { return each.time_ms.has_value(); });
+  settings.table = table_of_all(all, first, metrics, settings.has_times);
   settings.changes = changes_of(all);
   settings.enough = enough_lines(all);
   settings.recommendation = recommendation_of(all, first, metrics.size());
-  settings.explanation = explanation_of(settings, has_times);
+  settings.explanation = explanation_of(settings);
   return settings;
 }
 

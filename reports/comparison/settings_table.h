@@ -19,6 +19,7 @@ struct SettingRun {
 struct SettingsTable {
   std::string reference;
   bool is_paper = false;                    ///< has the paper's configuration
+  bool has_times = false;                   ///< some run was timed alone
   std::string experiments;                  ///< names of those compared
   std::map<std::string, std::string> runs;  ///< `run_name` by setting
   CompareConfig config;                     ///< of all comparisons together
@@ -39,7 +40,8 @@ SettingsTable compare_settings(const std::vector<SettingRun>& runs, const Pairin
 
 std::string settings_text(const SettingsTable& settings, size_t columns);
 std::string settings_markdown(const SettingsTable& settings);
-std::string settings_html(const SettingsTable& settings);
+/// `scripts`: as in PageMaterial.
+std::string settings_html(const SettingsTable& settings, const std::vector<std::string>& scripts = {});
 std::string settings_csv(const SettingsTable& settings);
 std::string settings_latex(const SettingsTable& settings);
 

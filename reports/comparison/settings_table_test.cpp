@@ -118,6 +118,11 @@ TEST(SettingsTable, EveryFormatHasTheSameRows) {
     EXPECT_THAT(text, AllOf(HasSubstr("position_error_mm"), HasSubstr("worse"), HasSubstr("0.5")));
   EXPECT_THAT(settings_html(settings), AllOf(HasSubstr("<h2>Errors and times</h2>\n<div class=\"scroll\"><table>"),
                                              HasSubstr("</div>\n<h2>Differences from the reference</h2>\n<div")));
+  EXPECT_THAT(settings_html(settings, {"a script"}),
+              AllOf(HasSubstr("data-chart=\"settings\""), HasSubstr("a script"), HasSubstr(",time_ms,paper,")));
+  const SettingsTable untimed = compare_settings({setting("paper", 0, {}), setting("bad", 0.5, {})}, kHeadline);
+  EXPECT_THAT(settings_html(untimed, {"a script"}),
+              AllOf(Not(HasSubstr("data-chart")), Not(HasSubstr("a script"))));
   const auto& [name, run] = *settings.runs.begin();
   EXPECT_EQ(name, "bad");
   EXPECT_THAT(settings_csv(settings), AllOf(HasSubstr("experiments,quantity,setting,run,mean"),

@@ -295,6 +295,35 @@ function differences(tables, experiment) {
   };
 }
 
+// The page of settings: each error against the time of a frame, a panel for each quantity.
+function settings(tables) {
+  const times = new Map(
+      tables.settings.filter(row => row.quantity === 'time_ms').map(row => [row.setting, row.mean]));
+  const points = tables.settings.filter(row => row.quantity !== 'time_ms' && isNumber(row.mean) &&
+                                               isNumber(times.get(row.setting)))
+                     .map(row => ({...row, time: times.get(row.setting)}));
+  if (points.length === 0) return null;
+  const names = distinct(points, 'setting');
+  return {
+    data: {values: points}, columns: 3, spacing: 24, resolve: {scale: {y: 'independent'}},
+    facet: {field: 'quantity', sort: distinct(points, 'quantity'), title: null},
+    spec: {
+      width: 230, height: 150, mark: {type: 'point', filled: true, size: 110, opacity: 0.9},
+      encoding: {
+        x: {field: 'time', type: 'quantitative', title: 'time of a frame, median (ms)', axis: {tickCount: 5}},
+        y: {
+          field: 'mean', type: 'quantitative', title: null,
+          axis: {tickCount: 4, minExtent: 34, maxExtent: 34, format: '~g'}
+        },
+        color: {field: 'setting', sort: names, scale: {domain: names, range: seriesColors}, legend: {title: null}},
+        shape: {field: 'setting', sort: names, legend: {title: null}},
+        tooltip: [{field: 'setting'}, {field: 'mean', format: '.3~f'}, {field: 'time', format: '.3~f', title: 'ms'},
+                  {field: 'verdict'}]
+      }
+    }
+  };
+}
+
 // The page of `track`: columns over time, a panel for each group, a line for each column.
 function track(panelOf, lineOf, title, width) {
   return tables => {
@@ -342,6 +371,7 @@ charts['figure7-rank'] = lines('figure7', {
 });
 charts['figure8'] = figure8;
 charts['differences'] = differences;
+charts['settings'] = settings;
 charts['track-position'] = track(key => (key.match(/^position_(.)_mm$/) || [])[1], () => 'position', 'mm', 760);
 charts['track-angles'] = track(key => (key.match(/^([a-z]+)_.*_deg$/) || [])[1],
                                angleKind, 'deg', 760);
