@@ -42,10 +42,16 @@ static const char* const controller_names[kTopics] = {
     "rt/joint_states", "rt/glovebench/measured_joint_states"};
 static const char* const short_names[kTopics] = {"hand", "wrist", "pose", "states", "measured"};
 
+// Not exit(): OpenSSL's exit handlers would run while the middleware's threads still encrypt.
+static _Noreturn void leave(void) {
+  fflush(stdout);
+  _Exit(1);
+}
+
 static dds_entity_t checked(dds_entity_t result, const char* what) {
   if (result >= 0) return result;
   fprintf(stderr, "dds_probe: %s: %s\n", what, dds_strretcode(-result));
-  exit(1);
+  leave();
 }
 
 static dds_entity_t try_topic(dds_entity_t participant, int topic) {
@@ -300,7 +306,7 @@ static void act(dds_entity_t* writers, char* line) {
     read_trajectory(line + from, b, 0);
   } else {
     fprintf(stderr, "dds_probe: no action: %s", line);
-    exit(1);
+    leave();
   }
   if (last_topic != kPose) {
     trajectory.header.stamp.sec = a;
