@@ -22,7 +22,7 @@ class RowRandom {
 
   /// Standard normal, up to 4.3 sigma.
   float normal(int i) const { return quantiles_[bits(i)]; }
-  /// The first `normals`.
+  /// normal(0), normal(1), ...
   void normals(std::span<float> values) const;
   /// [0, 1)
   float uniform(int i) const { return static_cast<float>(bits(i)) * 0x1p-16f; }

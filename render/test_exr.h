@@ -37,7 +37,7 @@ inline LabelImage read_exr_labels(Imf::InputFile& file, const char* name) {
   return labels;
 }
 
-/// Of encode_exr's files. Colors are exact.
+/// Reads a file that encode_exr made. Colors are exact.
 inline FrameLayers read_exr(const std::string& path) {
   Imf::InputFile file(path.c_str());
   FrameLayers layers{{},
