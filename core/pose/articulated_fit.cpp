@@ -34,39 +34,6 @@ struct StepWeights {
   double tukey_mm, start_weight, tangential;
 };
 
-FaceBodies bodies_of_face(const std::array<uint32_t, 3>& corners, std::span<const BodyShares> shares) {
-  FaceBodies face;
-  for (uint8_t body = 0; body < kBodyCount; ++body) {
-    std::array<float, 3> of_corners;
-    for (int c = 0; c < 3; ++c) of_corners[c] = shares[corners[c]][body];
-    if (of_corners == std::array<float, 3>{0, 0, 0}) continue;
-    check(face.count < FaceBodies::kMost, "the corners of a face hang on eight bodies at most");
-    for (int c = 0; c < 3; ++c) face.share[c][face.count] = of_corners[c];
-    face.body[face.count++] = body;
-  }
-  return face;
-}
-
-/// At a place in a face.
-BodyList bodies_at(const FaceBodies& face, const Eigen::Vector3d& barycentric) {
-  BodyList list;
-  list.count = face.count;
-  for (int i = 0; i < face.count; ++i) {
-    list.body[i] = face.body[i];
-    for (int c = 0; c < 3; ++c) list.share[i] += barycentric[c] * static_cast<double>(face.share[c][i]);
-  }
-  return list;
-}
-BodyList bodies_at(const BodyShares& shares) {
-  BodyList list;
-  for (uint8_t body = 0; body < kBodyCount; ++body) {
-    if (shares[body] == 0) continue;
-    list.body[list.count] = body;
-    list.share[list.count++] = static_cast<double>(shares[body]);
-  }
-  return list;
-}
-
 /// Fits one start to the points of a stage.
 class Run {
  public:
@@ -92,12 +59,9 @@ class Run {
   NormalEquations equations(const ArticulatedPose& pose, const StepWeights& weights, bool outline_moves_pose) {
     const std::array<Screw, kAngleCount> screws = angle_screws(model_, hand_);
     PullSums of_points(screws), of_outline(screws);
-    add_points(of_points, weights);
-    for_each_outside(pose, [&](size_t vertex, const Pull& pull) {
-      RowSums pulls;
-      pulls.add(pull);
-      of_outline.add(pulls, bodies_at(shares_[vertex]));
-    });
+    of_points.add({matcher_.points_hand(), matcher_.closest(), matcher_.surface()}, faces_, weights.tukey_mm,
+                  weights.tangential);
+    for_each_outside(pose, [&](size_t vertex, const Pull& pull) { of_outline.add(pull, shares_[vertex]); });
     NormalEquations sum = of_points.equations(), outline = of_outline.equations();
     const double scale = kPointsOfWeights / std::max(1, points());
     if (!outline_moves_pose) {
@@ -199,22 +163,6 @@ class Run {
   }
 
  private:
-  void add_points(PullSums& sums, const StepWeights& weights) const {
-    for (size_t i = 0; i < matcher_.closest().size(); ++i) {
-      const ClosestPoint& closest = matcher_.closest()[i];
-      if (closest.face < 0) continue;
-      const double weight = tukey_weight(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
-      if (weight == 0) continue;
-      const Surface::Face& face = matcher_.surface().faces(matcher_.cloud()[i].label)[closest.face];
-      const SurfacePull found =
-          surface_pull(face, closest, matcher_.points_hand()[i].p, weight * (1 - weights.tangential));
-      RowSums pulls;
-      pulls.add(found.pull);
-      if (weights.tangential > 0) pulls.add_along_axes(found.pull.q, found.apart_mm, weight * weights.tangential);
-      sums.add(pulls, bodies_at(faces_[face.triangle], found.barycentric));
-    }
-  }
-
   /// Calls `visit` with each vertex that is seen outside the mask and the way back.
   template <typename Visit>
   void for_each_outside(const ArticulatedPose& pose, const Visit& visit) const {
@@ -252,8 +200,10 @@ void hold(NormalEquations& equations, const Posture& posture, const Posture& hel
 
 ArticulatedFit::ArticulatedFit(std::shared_ptr<const HandModel> model, const FitSchedule& schedule,
                                Implementation implementation)
-    : model_(std::move(model)), shares_(body_shares(*model_)), schedule_(schedule) {
-  for (const Triangle& triangle : model_->triangles()) faces_.push_back(bodies_of_face(triangle.vertices, shares_));
+    : model_(std::move(model)),
+      shares_(body_shares(*model_)),
+      faces_(face_bodies(*model_, shares_)),
+      schedule_(schedule) {
   search_.implementation = implementation;
 }
 

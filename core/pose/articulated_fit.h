@@ -8,6 +8,7 @@
 #include "core/pose/alignment.h"
 #include "core/pose/articulated_step.h"
 #include "core/pose/hand_mask.h"
+#include "core/pose/pull_sums.h"
 
 namespace glovebench {
 
@@ -32,8 +33,8 @@ struct FitStage {
 /// points: all points together count as many.
 struct FitSchedule {
   FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
-  FitStage rough{6, 0, 1000, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
-  FitStage fine{3, 0, 8000, {12, 4}, {0.01, 0.005}, {0, 0}, false};
+  FitStage rough{6, 0, 700, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
+  FitStage fine{2, 0, 8000, {12, 4}, {0.01, 0.005}, {0, 0}, false};
   int kept_starts = 2;
   double previous_weight = 0.003;  ///< pull to the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
@@ -54,14 +55,6 @@ struct ArticulatedEstimate {
   std::optional<double> misfit;         ///< as TrackResult::misfit
   Posture deviation = Posture::Zero();  ///< standard, rad
   uint32_t hidden = 0;                  ///< bit a: angle a
-};
-
-/// Bodies that move a face, with shares at each corner.
-struct FaceBodies {
-  static constexpr int kMost = 8;
-  int count = 0;
-  std::array<uint8_t, kMost> body{};
-  std::array<std::array<float, kMost>, 3> share{};
 };
 
 /// Refines pose and posture (core/README.md, "The method `articulated`").

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "core/base/math.h"
 #include "core/hand/hand_model.h"
 #include "core/pose/closest_point.h"
 
@@ -28,9 +29,15 @@ struct Pull {
 };
 /// Motion along the pull, per degree of rotation and mm of translation.
 Vector6d row_of(const Pull& pull);
+/// A screw as it acts on rows: row . result is the motion along the pull, mm per degree.
+Vector6d on_rows(const Screw& screw);
 
 /// 1 at 0, 0 from `width` on.
 double tukey_weight(double distance, double width);
+
+inline constexpr double kMmPerDegree = radians_from_degrees(1000.0);  ///< at 1 m from the axis
+inline constexpr double kInsideFace = 1e-3;   ///< barycentric coordinates above it: not on an edge
+inline constexpr double kNoDirection = 1e-5;  ///< m: nearer points have no direction
 
 struct SurfacePull {
   Pull pull;                 ///< along the normal inside a face, else along the connection
@@ -60,39 +67,6 @@ class PlainPullSums {
  private:
   std::array<Screw, kAngleCount> screws_;
   NormalEquations equations_;
-};
-
-struct BodyList {
-  int count = 0;
-  std::array<uint8_t, 12> body{};
-  std::array<double, 12> share{};
-};
-
-struct RowSums {
-  Eigen::Matrix<double, 21, 1> products = Eigen::Matrix<double, 21, 1>::Zero();  ///< upper triangle by rows
-  Vector6d sum = Vector6d::Zero();
-
-  void add(const Pull& pull);
-  void add_along_axes(const Eigen::Vector3d& q, const Eigen::Vector3d& apart_mm, double weight);
-};
-
-/// The same, faster.
-class PullSums {
- public:
-  explicit PullSums(const std::array<Screw, kAngleCount>& screws);
-  void add(const RowSums& pulls_at_point, const BodyList& bodies);
-  NormalEquations equations() const;
-
- private:
-  static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
-  struct Pair {
-    Eigen::Matrix<double, 21, 1> products;
-    bool is_used = false;
-  };
-
-  std::array<Vector6d, kAngleCount> screws_;
-  std::array<Pair, kPairs> pairs_;
-  std::array<Vector6d, kBodyCount> sums_;
 };
 
 /// Solves H step = g within joint limits (active set). `only_pose` fixes the angles. Empty if a motion is

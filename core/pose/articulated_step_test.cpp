@@ -40,36 +40,6 @@ TEST(ArticulatedStep, is_recovered_from_what_it_moves) {
   EXPECT_LT((solved - step).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(ArticulatedStep, has_the_same_equations_summed_up_by_bodies) {
-  const PosedHand hand = posed();
-  const std::array<Screw, kAngleCount> screws = angle_screws(test_hand(), hand);
-  const std::vector<BodyShares> shares = body_shares(test_hand());
-  PlainPullSums plain(screws);
-  PullSums fast(screws);
-  RandomStream random(1, "articulated step", 0, "sums");
-  for (size_t v = 0; v < hand.vertices.size(); v += 3) {
-    const Eigen::Vector3d q = hand.vertices[v].cast<double>(), apart_mm = 5 * random_direction(random);
-    const Pull pull{q, random_direction(random), random.uniform(-9, 9), random.uniform(0, 2)};
-    RowSums pulls;
-    pulls.add(pull);
-    pulls.add_along_axes(q, apart_mm, 0.7);
-    plain.add(pull, shares[v]);
-    for (int axis = 0; axis < 3; ++axis)
-      plain.add({q, Eigen::Vector3d::Unit(axis), apart_mm[axis], 0.7}, shares[v]);
-    BodyList bodies;
-    for (uint8_t body = 0; body < kBodyCount; ++body) {
-      if (shares[v][body] == 0) continue;
-      bodies.body[bodies.count] = body;
-      bodies.share[bodies.count++] = shares[v][body];
-    }
-    fast.add(pulls, bodies);
-  }
-  const NormalEquations a = plain.equations(), b = fast.equations();
-  // The shares of angles are sums of floats.
-  EXPECT_LT((a.H - b.H).cwiseAbs().maxCoeff(), 1e-6 * a.H.cwiseAbs().maxCoeff());
-  EXPECT_LT((a.g - b.g).cwiseAbs().maxCoeff(), 1e-6 * a.g.cwiseAbs().maxCoeff());
-}
-
 TEST(ArticulatedStep, of_the_pose_alone_keeps_the_angles) {
   StepVector step = some_step(3);
   step.tail<kAngleCount>().setZero();

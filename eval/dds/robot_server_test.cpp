@@ -241,7 +241,7 @@ TEST_F(RobotServer, AFloodOfHugeMessagesTakesNoMemory) {
   const StartedProgram server = serve_until_ready("hand", log);
   const size_t before = peak_memory(server);
   const StartedProgram sender =
-      talk("wait hand\nhuge names 2 100000000\nhuge points 2 50000000\nhuge names 500 15000\n" + fingers(10, 1) +
+      talk("wait hand\nhuge names 1 100000000\nhuge points 1 50000000\nhuge names 500 15000\n" + fingers(10, 1) +
            "again 100000 10000\n");
   EXPECT_TRUE(comes_true([&] { return std::abs(last_angle(log, "rh_FFJ3") - 10) < 1e-6; })) << "still follows";
   EXPECT_LT(peak_memory(server), before + 90 * kMegabyte) << "a message alone would be more";

@@ -58,10 +58,10 @@ inline void use_loopback_dds(const std::string& more = "") {
   setenv("CYCLONEDDS_URI", uri.c_str(), 1);
 }
 
-/// Waits up to 20 s.
+/// Waits up to a minute.
 template <typename Condition>
 bool comes_true(const Condition& condition) {
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 6000; ++i) {
     if (condition()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -1,0 +1,79 @@
+#include "core/pose/pull_sums.h"
+
+#include <gtest/gtest.h>
+
+#include "core/pose/test_alignment.h"
+
+namespace glovebench {
+namespace {
+
+void expect_equal(const NormalEquations& a, const NormalEquations& b) {
+  // The shares of angles are sums of floats.
+  EXPECT_LT((a.H - b.H).cwiseAbs().maxCoeff(), 1e-6 * a.H.cwiseAbs().maxCoeff());
+  EXPECT_LT((a.g - b.g).cwiseAbs().maxCoeff(), 1e-6 * a.g.cwiseAbs().maxCoeff());
+}
+
+TEST(PullSums, of_single_pulls_equal_plain_ones) {
+  const PosedHand hand = posed();
+  const std::array<Screw, kAngleCount> screws = angle_screws(test_hand(), hand);
+  const std::vector<BodyShares> shares = body_shares(test_hand());
+  PlainPullSums plain(screws);
+  PullSums fast(screws);
+  RandomStream random(1, "pull sums", 0, "single");
+  for (size_t v = 0; v < hand.vertices.size(); v += 3) {
+    const Pull pull{hand.vertices[v].cast<double>(), random_direction(random), random.uniform(-9, 9),
+                    random.uniform(0, 2)};
+    plain.add(pull, shares[v]);
+    fast.add(pull, shares[v]);
+  }
+  expect_equal(plain.equations(), fast.equations());
+}
+
+/// The shares of a place in a triangle.
+BodyShares shares_at(const Triangle& triangle, const Eigen::Vector3d& barycentric,
+                     std::span<const BodyShares> shares) {
+  BodyShares result{};
+  for (int body = 0; body < kBodyCount; ++body)
+    for (int c = 0; c < 3; ++c)
+      result[body] += static_cast<float>(barycentric[c]) * shares[triangle.vertices[c]][body];
+  return result;
+}
+
+TEST(PullSums, of_points_equal_plain_ones) {
+  const PosedHand hand = posed();
+  const std::array<Screw, kAngleCount> screws = angle_screws(test_hand(), hand);
+  const std::vector<BodyShares> shares = body_shares(test_hand());
+  const std::vector<FaceBodies> faces = face_bodies(test_hand(), shares);
+  const Surface surface(test_hand(), hand, {0.1f, 0.2f, 0.6f});
+  RandomStream random(1, "pull sums", 0, "points");
+  RecycledVector<LabeledPoint> points;
+  for (const Triangle& triangle : test_hand().triangles()) {
+    // On corners, edges and faces, on the surface and off it.
+    Eigen::Vector3f p = Eigen::Vector3f::Zero();
+    for (const uint32_t corner : triangle.vertices) p += hand.vertices[corner] / 3;
+    if (points.size() % 5 == 0) p = hand.vertices[triangle.vertices[0]];
+    if (points.size() % 3 != 0) p += (0.006 * random_direction(random)).cast<float>();
+    points.push_back({p, patch_labels()[triangle.patch]});
+  }
+  const RecycledVector<ClosestPoint> closest = closest_points_plain(points, surface);
+  constexpr double kTukey_mm = 9;
+  for (const double tangential : {0.0, 0.3}) {
+    PlainPullSums plain(screws);
+    PullSums fast(screws);
+    fast.add({points, closest, surface}, faces, kTukey_mm, tangential);
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (closest[i].face < 0) continue;
+      const double weight = tukey_weight(1000 * static_cast<double>(closest[i].distance), kTukey_mm);
+      const Surface::Face& face = surface.faces(points[i].label)[closest[i].face];
+      const SurfacePull found = surface_pull(face, closest[i], points[i].p, weight * (1 - tangential));
+      const BodyShares at = shares_at(test_hand().triangles()[face.triangle], found.barycentric, shares);
+      plain.add(found.pull, at);
+      for (int axis = 0; axis < 3; ++axis)
+        plain.add({found.pull.q, Eigen::Vector3d::Unit(axis), found.apart_mm[axis], weight * tangential}, at);
+    }
+    expect_equal(plain.equations(), fast.equations());
+  }
+}
+
+}  // namespace
+}  // namespace glovebench
