@@ -6,6 +6,8 @@
 
 #include "bench/bench_data.h"
 #include "core/base/math.h"
+#include "core/methods/method.h"
+#include "render/label_renderer.h"
 
 namespace glovebench::bench {
 namespace {
@@ -34,16 +36,19 @@ class StageTimes {
   Clock::time_point start_;
 };
 
-void track(benchmark::State& state, const char* algorithm) {
+/// Each frame as the first one.
+void track(benchmark::State& state, std::string_view method, const char* algorithm) {
   const BenchData& d = data();
   TrackerConfig config = d.config;
+  config.method = method;
   config.icp.algorithm = algorithm;
-  const Tracker tracker(config, d.calibration, d.model, d.database, d.table);
+  const std::unique_ptr<Method> tracker = find_method(method).make(
+      {config, d.calibration, d.model, d.database, d.table, render::label_renderer_factory()});
   for (const BenchFrame& frame : d.frames) {
-    const Eigen::Isometry3d found = tracker.track(frame.device).T_camera_hand_unfiltered,
-                            again = tracker.track(frame.device).T_camera_hand_unfiltered;
-    const bool as_prepared =
-        algorithm != d.config.icp.algorithm || found.matrix() == frame.result.T_camera_hand_unfiltered.matrix();
+    const Eigen::Isometry3d found = tracker->track(frame.device, {}).T_camera_hand_unfiltered,
+                            again = tracker->track(frame.device, {}).T_camera_hand_unfiltered;
+    const bool is_prepared = method == d.config.method && algorithm == d.config.icp.algorithm;
+    const bool as_prepared = !is_prepared || found.matrix() == frame.result.T_camera_hand_unfiltered.matrix();
     if (!as_prepared || found.matrix() != again.matrix())
       return state.SkipWithError("a frame tracked twice is not the same");
   }
@@ -53,7 +58,7 @@ void track(benchmark::State& state, const char* algorithm) {
   for (auto _ : state) {
     for (const BenchFrame& frame : d.frames) {
       const Clock::time_point start = Clock::now();
-      benchmark::DoNotOptimize(tracker.track(frame.device, {}, [&](Stage stage) { times.begin(stage); }));
+      benchmark::DoNotOptimize(tracker->track(frame.device, {}, [&](Stage stage) { times.begin(stage); }));
       times.end();
       seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }
@@ -65,9 +70,12 @@ void track(benchmark::State& state, const char* algorithm) {
   for (const auto& [stage, stage_seconds] : times.seconds())
     state.counters[std::string(to_string(stage))] = stage_seconds / static_cast<double>(frames);
 }
-// The paper's alignment, which is the default, and the robust one.
-BENCHMARK_CAPTURE(track, horn, "horn")->Name("frame/track")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(track, robust, "robust")->Name("frame/track_robust")->Unit(benchmark::kMillisecond);
+// The paper's method with its alignment, which is the default, and with the robust one.
+BENCHMARK_CAPTURE(track, horn, kPaperMethod, "horn")->Name("frame/track")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(track, robust, kPaperMethod, "robust")->Name("frame/track_robust")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(track, articulated, "articulated", "horn")
+    ->Name("frame/track_articulated")
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace glovebench::bench

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/error.h"
 #include "core/base/math.h"
 #include "core/pose/articulated_step.h"
 #include "core/pose/surface_matcher.h"

@@ -36,7 +36,7 @@ HWY_INLINE Vectors<V> cross(const Vectors<V>& a, const Vectors<V>& b) {
   return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
           product_difference(a.x, b.y, a.y, b.x)};
 }
-/// Adds in Eigen's order: doubles in pairs.
+/// Adds in Eigen's order on x86: floats x + (y + z), doubles (x + y) + z.
 HWY_INLINE Floats dot(const Vectors<Floats>& a, const Vectors<Floats>& b) {
   return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
 }
@@ -47,20 +47,20 @@ template <typename V>
 HWY_INLINE Vectors<V> scaled(V s, const Vectors<V>& v) {
   return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
 }
-/// Of length 1, or 0.
+/// Of length 1; as it is if its square is 0.
 template <typename D>
 HWY_INLINE Vectors<hn::VFromD<D>> normalized(D d, const Vectors<hn::VFromD<D>>& v) {
   const auto squared = dot(v, v), length = hn::Sqrt(squared);
   const auto has_length = hn::Gt(squared, hn::Zero(d));
-  return {hn::IfThenElseZero(has_length, hn::Div(v.x, length)),
-          hn::IfThenElseZero(has_length, hn::Div(v.y, length)),
-          hn::IfThenElseZero(has_length, hn::Div(v.z, length))};
+  return {hn::IfThenElse(has_length, hn::Div(v.x, length), v.x),
+          hn::IfThenElse(has_length, hn::Div(v.y, length), v.y),
+          hn::IfThenElse(has_length, hn::Div(v.z, length), v.z)};
 }
 HWY_INLINE Vectors<Doubles> promoted(const Vectors<Floats>& v) {
   return {hn::PromoteTo(kDoubles, v.x), hn::PromoteTo(kDoubles, v.y), hn::PromoteTo(kDoubles, v.z)};
 }
 
-/// Points of a vector's lanes.
+/// One point per lane.
 class PullBlock {
  public:
   HWY_INLINE void add(const Eigen::Vector3f& p, const Eigen::Vector3f& q, const Surface::Face& face,

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/pose/articulated_step.h"
 
@@ -28,7 +30,7 @@ struct BodySums {
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
   static constexpr size_t kProducts = 24, kRow = 8;  ///< upper triangle by rows: 21, a row: 6, and zeros
 
-  alignas(64) std::array<std::array<double, kProducts>, kPairs> products;  ///< of those that are used
+  alignas(64) std::array<std::array<double, kProducts>, kPairs> products;  ///< uninitialized unless is_used
   alignas(64) std::array<std::array<double, kRow>, kBodyCount> rows{};
   std::array<bool, kPairs> is_used{};
 
@@ -41,7 +43,7 @@ struct BodySums {
   }
 };
 
-/// Equals PlainPullSums, faster.
+/// Equals PlainPullSums up to rounding, faster. All instruction sets give the same bits.
 class PullSums {
  public:
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);

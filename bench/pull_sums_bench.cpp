@@ -1,0 +1,72 @@
+// The sums of a Gauss-Newton step of the method `articulated`: one row for each point, and in vectors.
+
+#include "bench/bench_data.h"
+#include "core/pose/pull_sums.h"
+#include "core/pose/surface_matcher.h"
+
+namespace glovebench::bench {
+namespace {
+
+constexpr double kTukey_mm = 12, kTangential = 0.1;
+
+/// A frame's points (8,000 at most) and what is nearest to them in the pose found.
+struct Matched {
+  SurfaceMatcher matcher;
+  std::array<Screw, kAngleCount> screws;
+
+  explicit Matched(const BenchFrame& frame)
+      : matcher(*data().model, frame.posed, subsample(frame.trace.cloud.points, 8000), {}),
+        screws(angle_screws(*data().model, frame.posed)) {
+    matcher.cull(frame.result.T_camera_hand);
+    matcher.match(frame.result.T_camera_hand);
+  }
+  MatchedPoints points() const { return {matcher.points_hand(), matcher.closest(), matcher.surface()}; }
+};
+
+NormalEquations plain_equations(const Matched& matched, std::span<const BodyShares> shares) {
+  PlainPullSums sums(matched.screws);
+  const MatchedPoints points = matched.points();
+  for (size_t i = 0; i < points.closest.size(); ++i)
+    if (points.closest[i].face >= 0) {
+      const double weight = tukey_weight(1000 * static_cast<double>(points.closest[i].distance), kTukey_mm);
+      const Surface::Face& face = points.surface.faces(points.points[i].label)[points.closest[i].face];
+      const SurfacePull found =
+          surface_pull(face, points.closest[i], points.points[i].p, weight * (1 - kTangential));
+      const Triangle& triangle = data().model->triangles()[face.triangle];
+      BodyShares at{};
+      for (int body = 0; body < kBodyCount; ++body)
+        for (int c = 0; c < 3; ++c)
+          at[body] += static_cast<float>(found.barycentric[c]) * shares[triangle.vertices[c]][body];
+      sums.add(found.pull, at);
+      for (int axis = 0; axis < 3; ++axis)
+        sums.add({found.pull.q, Eigen::Vector3d::Unit(axis), found.apart_mm[axis], weight * kTangential}, at);
+    }
+  return sums.equations();
+}
+
+NormalEquations fast_equations(const Matched& matched, std::span<const FaceBodies> faces) {
+  PullSums sums(matched.screws);
+  sums.add(matched.points(), faces, kTukey_mm, kTangential);
+  return sums.equations();
+}
+
+void pull_sums(benchmark::State& state, Implementation implementation) {
+  const std::vector<BodyShares> shares = body_shares(*data().model);
+  const std::vector<FaceBodies> faces = face_bodies(*data().model, shares);
+  std::vector<std::unique_ptr<Matched>> frames;
+  for (const BenchFrame& frame : data().frames) frames.push_back(std::make_unique<Matched>(frame));
+  for (const auto& frame : frames) {
+    const NormalEquations plain = plain_equations(*frame, shares), fast = fast_equations(*frame, faces);
+    if (!((plain.H - fast.H).cwiseAbs().maxCoeff() < 1e-6 * plain.H.cwiseAbs().maxCoeff()))
+      return state.SkipWithError("the sums differ from the plain ones");
+  }
+  time_each(state, "frame", frames, [&](const std::unique_ptr<Matched>& frame) {
+    return implementation == Implementation::plain ? plain_equations(*frame, shares)
+                                                   : fast_equations(*frame, faces);
+  });
+}
+BENCHMARK_CAPTURE(pull_sums, plain, Implementation::plain)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(pull_sums, fast, Implementation::fast)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace glovebench::bench
