@@ -53,7 +53,9 @@ std::optional<std::string> content_of(const std::string& path, const ManifestEnt
   try {
     content = read_regular_file(path, max_bytes);
   } catch (const Error&) {
-    if (!fs::exists(path, error)) return std::nullopt;  // the writer moved it meanwhile
+    // The writer moved it meanwhile, and may have put the next one there.
+    const bool was_moved = ::access(path.c_str(), R_OK) == 0 || errno == ENOENT;
+    if (was_moved && entry.bytes <= max_bytes) return std::nullopt;
     throw;
   }
   if (hash_text(content) != entry.hash) return std::nullopt;

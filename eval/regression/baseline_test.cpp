@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <atomic>
 #include <filesystem>
 #include <thread>
 
@@ -35,9 +34,8 @@ void write_baseline(const std::string& folder, int number) {
 TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
   const TestFolder folder;
   write_baseline(folder.path(), 1);
-  std::atomic<bool> is_done = false;
-  std::jthread writer([&] {
-    for (int number = 2; !is_done; ++number) write_baseline(folder.path(), number);
+  const std::jthread writer([&](const std::stop_token& is_done) {
+    for (int number = 2; !is_done.stop_requested(); ++number) write_baseline(folder.path(), number);
   });
   constexpr int kReads = 100;
   for (int reads = 0; reads < kReads;) {
@@ -51,7 +49,6 @@ TEST(Baseline, that_is_replaced_while_it_is_read_does_not_mix) {
       // Replaced twice since its manifest was read, so its files are gone.
     }
   }
-  is_done = true;
 }
 
 TEST(Baseline, without_provenance_is_refused) {
