@@ -7,7 +7,7 @@
 namespace glovebench::bench {
 namespace {
 
-constexpr double kTukey_mm = 12, kTangential = 0.1;
+constexpr PullWeights kWeights{.tukey_mm = 12, .tangential = 0.1};
 
 /// A frame's points (8,000 at most) and what is nearest to them in the pose found.
 struct Matched {
@@ -25,28 +25,13 @@ struct Matched {
 
 NormalEquations plain_equations(const Matched& matched, std::span<const BodyShares> shares) {
   PlainPullSums sums(matched.screws);
-  const MatchedPoints points = matched.points();
-  for (size_t i = 0; i < points.closest.size(); ++i)
-    if (points.closest[i].face >= 0) {
-      const double weight = tukey_weight(1000 * static_cast<double>(points.closest[i].distance), kTukey_mm);
-      const Surface::Face& face = points.surface.faces(points.points[i].label)[points.closest[i].face];
-      const SurfacePull found =
-          surface_pull(face, points.closest[i], points.points[i].p, weight * (1 - kTangential));
-      const Triangle& triangle = data().model->triangles()[face.triangle];
-      BodyShares at{};
-      for (int body = 0; body < kBodyCount; ++body)
-        for (int c = 0; c < 3; ++c)
-          at[body] += static_cast<float>(found.barycentric[c]) * shares[triangle.vertices[c]][body];
-      sums.add(found.pull, at);
-      for (int axis = 0; axis < 3; ++axis)
-        sums.add({found.pull.q, Eigen::Vector3d::Unit(axis), found.apart_mm[axis], weight * kTangential}, at);
-    }
+  sums.add(matched.points(), data().model->triangles(), shares, kWeights);
   return sums.equations();
 }
 
 NormalEquations fast_equations(const Matched& matched, std::span<const FaceBodies> faces) {
   PullSums sums(matched.screws);
-  sums.add(matched.points(), faces, kTukey_mm, kTangential);
+  sums.add(matched.points(), faces, kWeights);
   return sums.equations();
 }
 

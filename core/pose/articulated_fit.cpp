@@ -30,7 +30,8 @@ double evenly_between(const double (&ends)[2], int step, int steps) {
 
 /// The weights of one step of a stage.
 struct StepWeights {
-  double tukey_mm, start_weight, tangential;
+  PullWeights pull;
+  double start;
 };
 
 /// Fits one start to the points of a stage.
@@ -58,8 +59,7 @@ class Run {
   NormalEquations equations(const ArticulatedPose& pose, const StepWeights& weights, bool outline_moves_pose) {
     const std::array<Screw, kAngleCount> screws = angle_screws(model_, hand_);
     PullSums of_points(screws), of_outline(screws);
-    of_points.add({matcher_.points_hand(), matcher_.closest(), matcher_.surface()}, faces_, weights.tukey_mm,
-                  weights.tangential);
+    of_points.add({matcher_.points_hand(), matcher_.closest(), matcher_.surface()}, faces_, weights.pull);
     for_each_outside(pose, [&](size_t vertex, const Pull& pull) { of_outline.add(pull, shares_[vertex]); });
     NormalEquations sum = of_points.equations(), outline = of_outline.equations();
     const double scale = kPointsOfWeights / std::max(1, points());
@@ -223,11 +223,11 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
       run.match(pose, i > 0 && i < stage.rigid_steps);
       if (run.matched_points() < 3) return AlignmentStatus::no_shared_color;
       if (i + 1 == stage.steps) candidate.score = run.score(pose);
-      const StepWeights weights{between(stage.tukey_mm, i, stage.steps),
-                                between(stage.start_weight, i, stage.steps),
-                                evenly_between(stage.tangential, i, stage.steps)};
+      const StepWeights weights{
+          {between(stage.tukey_mm, i, stage.steps), evenly_between(stage.tangential, i, stage.steps)},
+          between(stage.start_weight, i, stage.steps)};
       NormalEquations equations = run.equations(pose, weights, stage.outline_moves_pose);
-      hold(equations, pose.posture, starts[candidate.start].posture, weights.start_weight);
+      hold(equations, pose.posture, starts[candidate.start].posture, weights.start);
       if (previous != nullptr) hold(equations, pose.posture, *previous, schedule_.previous_weight);
       const auto step = solve_within_limits(equations, pose.posture, i < stage.rigid_steps);
       if (!step) return AlignmentStatus::degenerate_cloud;

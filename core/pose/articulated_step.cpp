@@ -17,6 +17,16 @@ Eigen::Vector3d barycentric_in(const Surface::Face& face, const Eigen::Vector3f&
   return {1 - b - c, b, c};
 }
 
+/// The shares of a place in a triangle.
+BodyShares shares_at(const Triangle& triangle, const Eigen::Vector3d& barycentric,
+                     std::span<const BodyShares> shares) {
+  BodyShares result{};
+  for (int body = 0; body < kBodyCount; ++body)
+    for (int c = 0; c < 3; ++c)
+      result[body] += static_cast<float>(barycentric[c]) * shares[triangle.vertices[c]][body];
+  return result;
+}
+
 }  // namespace
 
 Vector6d on_rows(const Screw& screw) {
@@ -56,6 +66,23 @@ void PlainPullSums::add(const Pull& pull, const BodyShares& shares) {
     row[6 + a] = static_cast<double>(of_angles[a]) * on_rows(screws_[a]).dot(row.head<6>());
   equations_.H += pull.weight * row * row.transpose();
   equations_.g += pull.weight * pull.distance_mm * row;
+}
+
+void PlainPullSums::add(const MatchedPoints& matched, std::span<const Triangle> triangles,
+                        std::span<const BodyShares> shares, const PullWeights& weights) {
+  for (size_t i = 0; i < matched.closest.size(); ++i) {
+    const ClosestPoint& closest = matched.closest[i];
+    if (closest.face < 0) continue;
+    const LabeledPoint& point = matched.points[i];
+    const double weight = tukey_weight(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
+    const Surface::Face& face = matched.surface.faces(point.label)[closest.face];
+    const auto [pull, apart_mm, barycentric] =
+        surface_pull(face, closest, point.p, weight * (1 - weights.tangential));
+    const BodyShares at = shares_at(triangles[face.triangle], barycentric, shares);
+    add(pull, at);
+    for (int axis = 0; axis < 3; ++axis)
+      add({pull.q, Eigen::Vector3d::Unit(axis), apart_mm[axis], weight * weights.tangential}, at);
+  }
 }
 
 void NormalEquations::hold(int angle, double away_deg, double weight) {

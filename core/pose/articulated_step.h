@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <span>
 
 #include "core/base/math.h"
 #include "core/hand/hand_model.h"
@@ -47,6 +48,19 @@ struct SurfacePull {
 SurfacePull surface_pull(const Surface::Face& face, const ClosestPoint& closest, const Eigen::Vector3f& p_hand,
                          double weight);
 
+/// Points and what is nearest to each of them on a surface. Hand frame.
+struct MatchedPoints {
+  std::span<const LabeledPoint> points;
+  std::span<const ClosestPoint> closest;
+  const Surface& surface;
+};
+
+/// Weights of pulls on matched points.
+struct PullWeights {
+  double tukey_mm;    ///< distance from which a point has no weight
+  double tangential;  ///< share of a point's weight that counts along each axis instead of along its pull
+};
+
 /// H step = g.
 struct NormalEquations {
   StepMatrix H = StepMatrix::Zero();
@@ -62,6 +76,9 @@ class PlainPullSums {
   explicit PlainPullSums(const std::array<Screw, kAngleCount>& screws) : screws_(screws) {}
   /// `shares`: the point's.
   void add(const Pull& pull, const BodyShares& shares);
+  /// Adds `surface_pull` of each point, and pulls along the axes. `shares`: of all vertices.
+  void add(const MatchedPoints& matched, std::span<const Triangle> triangles, std::span<const BodyShares> shares,
+           const PullWeights& weights);
   NormalEquations equations() const { return equations_; }
 
  private:

@@ -11,50 +11,29 @@
 #include <limits>
 
 #include "core/pose/closest_point_search.h"
+#include "core/pose/vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace glovebench::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 constexpr hn::CappedTag<float, PointGroup::kPoints> kFloats;
 constexpr hn::RebindToSigned<decltype(kFloats)> kInts;
 using Floats = hn::VFromD<decltype(kFloats)>;
+using FloatVectors = Vectors<Floats>;
 using Ints = hn::VFromD<decltype(kInts)>;
 using Mask = decltype(hn::MaskFromVec(Floats()));
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-struct Vectors {
-  Floats x, y, z;
-};
-
-HWY_INLINE Vectors set(const float (&v)[3]) {
+HWY_INLINE FloatVectors set(const float (&v)[3]) {
   return {hn::Set(kFloats, v[0]), hn::Set(kFloats, v[1]), hn::Set(kFloats, v[2])};
-}
-HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE Vectors operator+(const Vectors& a, const Vectors& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vectors operator*(Floats s, const Vectors& v) {
-  return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
-}
-/// Adds in Eigen's order.
-HWY_INLINE Floats dot(const Vectors& a, const Vectors& b) {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Floats cross(Floats a, Floats b, Floats c, Floats d) { return hn::Sub(hn::Mul(a, b), hn::Mul(c, d)); }
-HWY_INLINE Vectors choose(Mask mask, const Vectors& yes, const Vectors& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y), hn::IfThenElse(mask, yes.z, no.z)};
 }
 HWY_INLINE Mask all(Mask a, Mask b, Mask c) { return hn::And(a, hn::And(b, c)); }
 
 /// Repeats `closest_on_triangle` exactly: other rounding could select another face.
-HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& face) {
-  const Vectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
-  const Vectors ap = p - a, bp = p - b, cp = p - c;
+HWY_INLINE FloatVectors closest_on_face(const FloatVectors& p, const FacePackets::Face& face) {
+  const FloatVectors a = set(face.a), b = set(face.b), c = set(face.c), ab = set(face.ab), ac = set(face.ac);
+  const FloatVectors ap = p - a, bp = p - b, cp = p - c;
   const Floats d1 = dot(ab, ap), d2 = dot(ac, ap);
   const Floats d3 = dot(ab, bp), d4 = dot(ac, bp);
   const Floats d5 = dot(ab, cp), d6 = dot(ac, cp);
@@ -78,10 +57,10 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
   denominator = hn::IfThenElse(on_ab, hn::Sub(d1, d3), denominator);
   const Floats share = hn::Div(numerator, denominator);
 
-  const Vectors inside = (a + hn::Mul(vb, share) * ab) + hn::Mul(vc, share) * ac;
+  const FloatVectors inside = (a + hn::Mul(vb, share) * ab) + hn::Mul(vc, share) * ac;
   const Mask on_a_edge = hn::Or(on_ab, on_ac);
-  const Vectors foot = choose(on_a_edge, a, b), edge = choose(on_ab, ab, choose(on_ac, ac, c - b));
-  Vectors result = choose(hn::Or(on_a_edge, on_bc), foot + share * edge, inside);
+  const FloatVectors foot = choose(on_a_edge, a, b), edge = choose(on_ab, ab, choose(on_ac, ac, c - b));
+  FloatVectors result = choose(hn::Or(on_a_edge, on_bc), foot + share * edge, inside);
   result = choose(hn::AndNot(on_ab, at_c), c, result);
   result = choose(at_b, b, result);
   return choose(at_a, a, result);
@@ -90,15 +69,15 @@ HWY_INLINE Vectors closest_on_face(const Vectors& p, const FacePackets::Face& fa
 struct Nearest {
   Floats squared;
   Ints face;
-  Vectors p;
+  FloatVectors p;
 
   HWY_INLINE Nearest()
       : squared(hn::Set(kFloats, kInfinity)),
         face(hn::Set(kInts, -1)),
         p{hn::Zero(kFloats), hn::Zero(kFloats), hn::Zero(kFloats)} {}
   /// Takes a nearer face; of equally near ones, the smaller index. Ignores NaN.
-  HWY_INLINE void consider(const Vectors& points, const FacePackets::Face& candidate) {
-    const Vectors closest = closest_on_face(points, candidate), apart = closest - points;
+  HWY_INLINE void consider(const FloatVectors& points, const FacePackets::Face& candidate) {
+    const FloatVectors closest = closest_on_face(points, candidate), apart = closest - points;
     const Floats distance2 = dot(apart, apart);
     const Ints index = hn::Set(kInts, candidate.face);
     const Mask comes_first = hn::And(hn::Eq(distance2, squared), hn::RebindMask(kFloats, hn::Lt(index, face)));

@@ -29,7 +29,7 @@ struct GroupBox {
   float diagonal;
 };
 
-HWY_INLINE GroupBox box_of(const Vectors& p) {
+HWY_INLINE GroupBox box_of(const FloatVectors& p) {
   GroupBox box;
   float squared = 0;
   const Floats axes[3] = {p.x, p.y, p.z};
@@ -75,7 +75,7 @@ HWY_INLINE uint32_t bits_of(D d, hn::Mask<D> mask) {
 /// The search of one group.
 class GroupSearch {
  public:
-  HWY_INLINE GroupSearch(const FacePackets& color, const Vectors& p, GroupScratch& scratch)
+  HWY_INLINE GroupSearch(const FacePackets& color, const FloatVectors& p, GroupScratch& scratch)
       : color_(color),
         p_(p),
         is_measured_(scratch.is_measured.data()),
@@ -150,7 +150,7 @@ class GroupSearch {
   }
 
   const FacePackets& color_;
-  const Vectors& p_;
+  const FloatVectors& p_;
   uint8_t* is_measured_;
   int32_t* candidates_;
   float* doubts_;
@@ -158,7 +158,7 @@ class GroupSearch {
   int measured_count_ = 0;  ///< by `measure`
 };
 
-HWY_INLINE Vectors gather(std::span<const LabeledPoint> points, const PointGroup& group) {
+HWY_INLINE FloatVectors gather(std::span<const LabeledPoint> points, const PointGroup& group) {
   alignas(64) float p[3][kLanes];
   const LabeledPoint* const all = points.data();
   for (size_t i = 0; i < kLanes; ++i)
@@ -196,7 +196,7 @@ void FindClosest(const FacePackets* colors, std::span<const LabeledPoint> points
       for (int i = 0; i < group.count; ++i) results[group.points[i]] = {};
       continue;
     }
-    const Vectors p = gather(points, group);
+    const FloatVectors p = gather(points, group);
     GroupSearch search(color, p, scratch);
     // The first call starts at the faces of the previous group, a neighbor, or else at a face of each packet.
     const bool has_neighbor = before != nullptr && before->label == group.label;

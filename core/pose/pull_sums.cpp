@@ -12,52 +12,102 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/pose/vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace glovebench::HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::CappedTag<double, 8> kDoubles;
 constexpr hn::Rebind<float, decltype(kDoubles)> kFloats;
 constexpr size_t kLanes = hn::MaxLanes(kDoubles);
 using Doubles = hn::VFromD<decltype(kDoubles)>;
 using Floats = hn::VFromD<decltype(kFloats)>;
+using DoubleVectors = Vectors<Doubles>;
+using FloatVectors = Vectors<Floats>;
 
-template <typename V>
-struct Vectors {
-  V x, y, z;
-};
-template <typename V>
-HWY_INLINE V product_difference(V a, V b, V c, V d) {
-  return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
+HWY_INLINE Doubles set(double value) { return hn::Set(kDoubles, value); }
+HWY_INLINE FloatVectors load(const float (&v)[3][kLanes]) {
+  return {hn::Load(kFloats, v[0]), hn::Load(kFloats, v[1]), hn::Load(kFloats, v[2])};
 }
-template <typename V>
-HWY_INLINE Vectors<V> cross(const Vectors<V>& a, const Vectors<V>& b) {
-  return {product_difference(a.y, b.z, a.z, b.y), product_difference(a.z, b.x, a.x, b.z),
-          product_difference(a.x, b.y, a.y, b.x)};
-}
-/// Adds in Eigen's order on x86: floats x + (y + z), doubles (x + y) + z.
-HWY_INLINE Floats dot(const Vectors<Floats>& a, const Vectors<Floats>& b) {
-  return hn::Add(hn::Mul(a.x, b.x), hn::Add(hn::Mul(a.y, b.y), hn::Mul(a.z, b.z)));
-}
-HWY_INLINE Doubles dot(const Vectors<Doubles>& a, const Vectors<Doubles>& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-template <typename V>
-HWY_INLINE Vectors<V> scaled(V s, const Vectors<V>& v) {
-  return {hn::Mul(s, v.x), hn::Mul(s, v.y), hn::Mul(s, v.z)};
-}
-/// Of length 1; as it is if its square is 0.
-template <typename D>
-HWY_INLINE Vectors<hn::VFromD<D>> normalized(D d, const Vectors<hn::VFromD<D>>& v) {
-  const auto squared = dot(v, v), length = hn::Sqrt(squared);
-  const auto has_length = hn::Gt(squared, hn::Zero(d));
-  return {hn::IfThenElse(has_length, hn::Div(v.x, length), v.x),
-          hn::IfThenElse(has_length, hn::Div(v.y, length), v.y),
-          hn::IfThenElse(has_length, hn::Div(v.z, length), v.z)};
-}
-HWY_INLINE Vectors<Doubles> promoted(const Vectors<Floats>& v) {
+HWY_INLINE DoubleVectors promoted(const FloatVectors& v) {
   return {hn::PromoteTo(kDoubles, v.x), hn::PromoteTo(kDoubles, v.y), hn::PromoteTo(kDoubles, v.z)};
+}
+/// Divides by the length, unless that is 0.
+template <typename V>
+HWY_INLINE Vectors<V> normalized(const Vectors<V>& v) {
+  const V squared = dot(v, v), length = hn::Sqrt(squared);
+  const Vectors<V> divided{hn::Div(v.x, length), hn::Div(v.y, length), hn::Div(v.z, length)};
+  return choose(hn::Gt(squared, hn::Zero(hn::DFromV<V>())), divided, v);
+}
+
+/// A face (a, b, c) per lane, a point p and its closest point q on the face.
+struct PointsOnFaces {
+  FloatVectors p, q, a, b, c;
+};
+/// One SurfacePull per lane.
+struct SurfacePulls {
+  DoubleVectors q, direction;
+  Doubles distance_mm;
+  DoubleVectors apart_mm;
+  Doubles barycentric[3];
+};
+/// Repeats `surface_pull` exactly.
+HWY_INLINE SurfacePulls surface_pulls(const PointsOnFaces& points) {
+  const FloatVectors ab_float = points.b - points.a, ac_float = points.c - points.a;
+  const DoubleVectors face_normal = promoted(normalized(cross(ab_float, ac_float)));
+  const DoubleVectors ab = promoted(ab_float), ac = promoted(ac_float), aq = promoted(points.q - points.a);
+  const DoubleVectors q = promoted(points.q), apart = promoted(points.p) - q, normal = cross(ab, ac);
+
+  const Doubles area = dot(normal, normal);
+  const auto has_area = hn::Gt(area, hn::Zero(kDoubles));
+  const Doubles at_b = hn::IfThenElseZero(has_area, hn::Div(dot(cross(aq, ac), normal), area));
+  const Doubles at_c = hn::IfThenElseZero(has_area, hn::Div(dot(cross(ab, aq), normal), area));
+  const Doubles at_a = hn::Sub(hn::Sub(set(1), at_b), at_c);
+
+  const Doubles length = hn::Sqrt(dot(apart, apart)), least = hn::Min(hn::Min(at_a, at_b), at_c);
+  const auto is_along_the_line = hn::And(hn::Lt(least, set(kInsideFace)), hn::Gt(length, set(kNoDirection)));
+  const DoubleVectors direction = choose(is_along_the_line, normalized(apart), face_normal);
+  return {q, direction, hn::Mul(set(1000), dot(direction, apart)), set(1000) * apart, {at_a, at_b, at_c}};
+}
+
+/// The upper triangle by rows of a pull's weighted products, and its weighted row times its distance.
+struct WeightedRows {
+  Doubles products[21], sums[6];
+};
+/// A row for the motion along each pull.
+HWY_INLINE WeightedRows along_direction(const SurfacePulls& pulls, Doubles weight) {
+  WeightedRows result;
+  const DoubleVectors turn = set(kMmPerDegree) * cross(pulls.q, pulls.direction), &shift = pulls.direction;
+  const Doubles row[6] = {turn.x, turn.y, turn.z, shift.x, shift.y, shift.z};
+  for (int i = 0, next = 0; i < 6; ++i) {
+    const Doubles weighted = hn::Mul(weight, row[i]);
+    result.sums[i] = hn::Mul(pulls.distance_mm, weighted);
+    for (int j = i; j < 6; ++j) result.products[next++] = hn::Mul(weighted, row[j]);
+  }
+  return result;
+}
+/// Adds a row for each axis. The rows (a x e, e) of the axes e make (|a|^2 I - a a^T) of the turn, the cross
+/// product's matrix between turn and shift, and I of the shift.
+HWY_INLINE void add_along_axes(const SurfacePulls& pulls, Doubles weight, WeightedRows& rows) {
+  const DoubleVectors a = set(kMmPerDegree) * pulls.q, w = weight * a;
+  const Doubles square = dot(w, a);
+  const auto add = [&](int i, Doubles value) HWY_ATTR { rows.products[i] = hn::Add(rows.products[i], value); };
+  add(0, hn::Sub(square, hn::Mul(w.x, a.x)));
+  add(1, hn::Neg(hn::Mul(w.x, a.y)));
+  add(2, hn::Neg(hn::Mul(w.x, a.z)));
+  add(4, hn::Neg(w.z));
+  add(5, w.y);
+  add(6, hn::Sub(square, hn::Mul(w.y, a.y)));
+  add(7, hn::Neg(hn::Mul(w.y, a.z)));
+  add(8, w.z);
+  add(10, hn::Neg(w.x));
+  add(11, hn::Sub(square, hn::Mul(w.z, a.z)));
+  add(12, hn::Neg(w.y));
+  add(13, w.x);
+  for (const int i : {15, 18, 20}) add(i, weight);
+  const DoubleVectors moment = cross(w, pulls.apart_mm), force = weight * pulls.apart_mm;
+  const Doubles added[6] = {moment.x, moment.y, moment.z, force.x, force.y, force.z};
+  for (int i = 0; i < 6; ++i) rows.sums[i] = hn::Add(rows.sums[i], added[i]);
 }
 
 /// One point per lane.
@@ -77,89 +127,28 @@ class PullBlock {
   }
   HWY_INLINE bool is_full() const { return count_ == kLanes; }
 
-  /// Repeats `surface_pull` exactly, and empties the block.
-  HWY_INLINE void sum(std::span<const FaceBodies> faces, double tangential, BodySums& sums) {
+  /// Adds the points to the sums and empties the block.
+  HWY_INLINE void flush(std::span<const FaceBodies> faces, double tangential, BodySums& sums) {
     if (count_ == 0) return;
-    const auto load = [](const float(&v)[3][kLanes]) HWY_ATTR {
-      return Vectors<Floats>{hn::Load(kFloats, v[0]), hn::Load(kFloats, v[1]), hn::Load(kFloats, v[2])};
-    };
-    const auto minus = [](const auto& u, const auto& v) HWY_ATTR {
-      return std::decay_t<decltype(u)>{hn::Sub(u.x, v.x), hn::Sub(u.y, v.y), hn::Sub(u.z, v.z)};
-    };
-    const auto set = [](double value) HWY_ATTR { return hn::Set(kDoubles, value); };
-    const auto q_float = load(q_), a = load(a_), ab_float = minus(load(b_), a), ac_float = minus(load(c_), a);
-    const auto normal_float = cross(ab_float, ac_float);
-    const auto face_normal = promoted(normalized(kFloats, normal_float));
-    const auto q = promoted(q_float), apart = minus(promoted(load(p_)), q);
-    const auto ab = promoted(ab_float), ac = promoted(ac_float), aq = promoted(minus(q_float, a));
-
-    const auto normal = cross(ab, ac);
-    const Doubles area = dot(normal, normal), one = set(1);
-    const auto has_area = hn::Gt(area, hn::Zero(kDoubles));
-    Doubles at_b = hn::IfThenElseZero(has_area, hn::Div(dot(cross(aq, ac), normal), area));
-    Doubles at_c = hn::IfThenElseZero(has_area, hn::Div(dot(cross(ab, aq), normal), area));
-    const Doubles at_a = hn::Sub(hn::Sub(one, at_b), at_c);
-
-    const Doubles length = hn::Sqrt(dot(apart, apart)), least = hn::Min(hn::Min(at_a, at_b), at_c);
-    const auto is_along_the_line = hn::And(hn::Lt(least, set(kInsideFace)), hn::Gt(length, set(kNoDirection)));
-    const auto line = normalized(kDoubles, apart);
-    const Vectors<Doubles> direction{hn::IfThenElse(is_along_the_line, line.x, face_normal.x),
-                                     hn::IfThenElse(is_along_the_line, line.y, face_normal.y),
-                                     hn::IfThenElse(is_along_the_line, line.z, face_normal.z)};
-    const Doubles distance_mm = hn::Mul(set(1000), dot(direction, apart));
-
-    const auto turn = scaled(set(kMmPerDegree), cross(q, direction));
-    const Doubles row[6] = {turn.x, turn.y, turn.z, direction.x, direction.y, direction.z};
-    const Doubles whole = hn::Load(kDoubles, weight_), weight = hn::Mul(whole, set(1 - tangential));
-    Doubles products[21], sum[6];
-    for (int i = 0, next = 0; i < 6; ++i) {
-      const Doubles weighted = hn::Mul(weight, row[i]);
-      sum[i] = hn::Mul(distance_mm, weighted);
-      for (int j = i; j < 6; ++j) products[next++] = hn::Mul(weighted, row[j]);
-    }
-    if (tangential > 0) {
-      // The rows (a x e, e) of the axes e make (|a|^2 I - a a^T) of the turn, the cross product's matrix between
-      // the two, and I of the shift.
-      const Doubles along = hn::Mul(whole, set(tangential));
-      const auto arm = scaled(set(kMmPerDegree), q), w = scaled(along, arm), apart_mm = scaled(set(1000), apart);
-      const Doubles square = dot(w, arm);
-      const auto add = [&](int i, Doubles value) HWY_ATTR { products[i] = hn::Add(products[i], value); };
-      add(0, hn::Sub(square, hn::Mul(w.x, arm.x)));
-      add(1, hn::Neg(hn::Mul(w.x, arm.y)));
-      add(2, hn::Neg(hn::Mul(w.x, arm.z)));
-      add(4, hn::Neg(w.z));
-      add(5, w.y);
-      add(6, hn::Sub(square, hn::Mul(w.y, arm.y)));
-      add(7, hn::Neg(hn::Mul(w.y, arm.z)));
-      add(8, w.z);
-      add(10, hn::Neg(w.x));
-      add(11, hn::Sub(square, hn::Mul(w.z, arm.z)));
-      add(12, hn::Neg(w.y));
-      add(13, w.x);
-      for (const int i : {15, 18, 20}) add(i, along);
-      const auto moment = cross(w, apart_mm), force = scaled(along, apart_mm);
-      const Doubles added[6] = {moment.x, moment.y, moment.z, force.x, force.y, force.z};
-      for (int i = 0; i < 6; ++i) sum[i] = hn::Add(sum[i], added[i]);
-    }
-    const Doubles barycentric[3] = {at_a, at_b, at_c};
-    for (int i = 0; i < 21; ++i) hn::Store(products[i], kDoubles, by_lane_[i]);
-    for (int i = 0; i < 6; ++i) hn::Store(sum[i], kDoubles, by_lane_[kSum + i]);
-    for (int c = 0; c < 3; ++c) hn::Store(barycentric[c], kDoubles, by_lane_[kBarycentric + c]);
+    const SurfacePulls pulls = surface_pulls({load(p_), load(q_), load(a_), load(b_), load(c_)});
+    const Doubles weight = hn::Load(kDoubles, weight_);
+    WeightedRows rows = along_direction(pulls, hn::Mul(weight, set(1 - tangential)));
+    if (tangential > 0) add_along_axes(pulls, hn::Mul(weight, set(tangential)), rows);
+    for (int i = 0; i < 21; ++i) hn::Store(rows.products[i], kDoubles, products_[i]);
+    for (int i = 0; i < 6; ++i) hn::Store(rows.sums[i], kDoubles, sums_[i]);
+    for (int c = 0; c < 3; ++c) hn::Store(pulls.barycentric[c], kDoubles, barycentric_[c]);
     for (size_t lane = 0; lane < count_; ++lane) add_lane(lane, faces[triangle_[lane]], sums);
     count_ = 0;
   }
 
  private:
-  static constexpr int kSum = 21, kBarycentric = 27;
-
   HWY_INLINE void add_lane(size_t lane, const FaceBodies& face, BodySums& sums) const {
     alignas(64) double products[BodySums::kProducts] = {}, row[BodySums::kRow] = {}, share[FaceBodies::kMost];
-    for (int i = 0; i < 21; ++i) products[i] = by_lane_[i][lane];
-    for (int i = 0; i < 6; ++i) row[i] = by_lane_[kSum + i][lane];
+    for (int i = 0; i < 21; ++i) products[i] = products_[i][lane];
+    for (int i = 0; i < 6; ++i) row[i] = sums_[i][lane];
     for (int i = 0; i < face.count; ++i) {
       share[i] = 0;
-      for (int c = 0; c < 3; ++c)
-        share[i] += by_lane_[kBarycentric + c][lane] * static_cast<double>(face.share[c][i]);
+      for (int c = 0; c < 3; ++c) share[i] += barycentric_[c][lane] * static_cast<double>(face.share[c][i]);
     }
     for (int i = 0; i < face.count; ++i) {
       std::array<double, BodySums::kRow>& of_body = sums.rows[face.body[i]];
@@ -176,24 +165,24 @@ class PullBlock {
   alignas(64) float p_[3][kLanes] = {}, q_[3][kLanes] = {}, a_[3][kLanes] = {}, b_[3][kLanes] = {},
                     c_[3][kLanes] = {};
   alignas(64) double weight_[kLanes] = {};
-  alignas(64) double by_lane_[kBarycentric + 3][kLanes];
+  alignas(64) double products_[21][kLanes], sums_[6][kLanes], barycentric_[3][kLanes];
   uint32_t triangle_[kLanes];
   size_t count_ = 0;
 };
 
-void AddPulls(const MatchedPoints& matched, std::span<const FaceBodies> faces, double tukey_mm, double tangential,
+void AddPulls(const MatchedPoints& matched, std::span<const FaceBodies> faces, const PullWeights& weights,
               BodySums& sums) {
   PullBlock block;
   for (size_t i = 0; i < matched.closest.size(); ++i) {
     const ClosestPoint& closest = matched.closest[i];
     if (closest.face < 0) continue;
-    const double weight = tukey_weight(1000 * static_cast<double>(closest.distance), tukey_mm);
+    const double weight = tukey_weight(1000 * static_cast<double>(closest.distance), weights.tukey_mm);
     if (weight == 0) continue;
     const LabeledPoint& point = matched.points[i];
     block.add(point.p, closest.p_hand, matched.surface.faces(point.label)[closest.face], weight);
-    if (block.is_full()) block.sum(faces, tangential, sums);
+    if (block.is_full()) block.flush(faces, weights.tangential, sums);
   }
-  block.sum(faces, tangential, sums);
+  block.flush(faces, weights.tangential, sums);
 }
 
 }  // namespace glovebench::HWY_NAMESPACE
@@ -245,9 +234,8 @@ void PullSums::add(const Pull& pull, const BodyShares& shares) {
   }
 }
 
-void PullSums::add(const MatchedPoints& matched, std::span<const FaceBodies> faces, double tukey_mm,
-                   double tangential) {
-  HWY_DYNAMIC_DISPATCH(AddPulls)(matched, faces, tukey_mm, tangential, sums_);
+void PullSums::add(const MatchedPoints& matched, std::span<const FaceBodies> faces, const PullWeights& weights) {
+  HWY_DYNAMIC_DISPATCH(AddPulls)(matched, faces, weights, sums_);
 }
 
 NormalEquations PullSums::equations() const {

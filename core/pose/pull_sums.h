@@ -18,13 +18,6 @@ struct FaceBodies {
 };
 std::vector<FaceBodies> face_bodies(const HandModel& model, std::span<const BodyShares> shares);
 
-/// Points and what is nearest to each of them on a surface. Hand frame.
-struct MatchedPoints {
-  std::span<const LabeledPoint> points;
-  std::span<const ClosestPoint> closest;
-  const Surface& surface;
-};
-
 /// Products of rows, summed up by the bodies that move them.
 struct BodySums {
   static constexpr int kPairs = kBodyCount * (kBodyCount + 1) / 2;
@@ -49,9 +42,8 @@ class PullSums {
   explicit PullSums(const std::array<Screw, kAngleCount>& screws);
   /// `shares`: the point's.
   void add(const Pull& pull, const BodyShares& shares);
-  /// Adds `surface_pull` of each point, with weights of tukey_weight(distance, tukey_mm). Of these weights, the
-  /// share `tangential` counts along each axis instead. `faces`: of all triangles.
-  void add(const MatchedPoints& matched, std::span<const FaceBodies> faces, double tukey_mm, double tangential);
+  /// `faces`: of all triangles.
+  void add(const MatchedPoints& matched, std::span<const FaceBodies> faces, const PullWeights& weights);
   NormalEquations equations() const;
 
  private:

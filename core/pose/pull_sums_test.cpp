@@ -32,16 +32,6 @@ TEST(PullSums, of_single_pulls_equal_plain_ones) {
   expect_equal(plain.equations(), fast.equations());
 }
 
-/// The shares of a place in a triangle.
-BodyShares shares_at(const Triangle& triangle, const Eigen::Vector3d& barycentric,
-                     std::span<const BodyShares> shares) {
-  BodyShares result{};
-  for (int body = 0; body < kBodyCount; ++body)
-    for (int c = 0; c < 3; ++c)
-      result[body] += static_cast<float>(barycentric[c]) * shares[triangle.vertices[c]][body];
-  return result;
-}
-
 TEST(PullSums, of_points_equal_plain_ones_and_are_the_same_on_each_instruction_set) {
   const PosedHand hand = posed();
   const std::array<Screw, kAngleCount> screws = angle_screws(test_hand(), hand);
@@ -61,23 +51,14 @@ TEST(PullSums, of_points_equal_plain_ones_and_are_the_same_on_each_instruction_s
   while (points.size() % 8 != 3) points.pop_back();  // the last vector is not full
   RecycledVector<ClosestPoint> closest = closest_points_plain(points, surface);
   closest[1].face = -1;
-  constexpr double kTukey_mm = 9;
   for (const double tangential : {0.0, 0.3}) {
+    const PullWeights weights{.tukey_mm = 9, .tangential = tangential};
     PlainPullSums plain(screws);
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (closest[i].face < 0) continue;
-      const double weight = tukey_weight(1000 * static_cast<double>(closest[i].distance), kTukey_mm);
-      const Surface::Face& face = surface.faces(points[i].label)[closest[i].face];
-      const SurfacePull found = surface_pull(face, closest[i], points[i].p, weight * (1 - tangential));
-      const BodyShares at = shares_at(test_hand().triangles()[face.triangle], found.barycentric, shares);
-      plain.add(found.pull, at);
-      for (int axis = 0; axis < 3; ++axis)
-        plain.add({found.pull.q, Eigen::Vector3d::Unit(axis), found.apart_mm[axis], weight * tangential}, at);
-    }
+    plain.add({points, closest, surface}, test_hand().triangles(), shares, weights);
     std::optional<NormalEquations> before;
     on_each_instruction_set([&] {
       PullSums fast(screws);
-      fast.add({points, closest, surface}, faces, kTukey_mm, tangential);
+      fast.add({points, closest, surface}, faces, weights);
       const NormalEquations equations = fast.equations();
       expect_equal(plain.equations(), equations);
       if (before) {
