@@ -87,7 +87,7 @@ TEST_F(RobotServerArm, TheArmTakesTheWristWhereItShallGo) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(good(log, "pose"), 201);
   EXPECT_THAT(run.out, HasSubstr("arm: messages: "));
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back()).translation();
+  const Eigen::Vector3d wrist = last_wrist(last_line(log, "state")).translation();
   EXPECT_LT((wrist - wrist_at_rest().translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
 }
@@ -100,7 +100,7 @@ TEST_F(RobotServerArm, TheArmKnowsHowTheHandIsMounted) {
   const Eigen::Vector3d way(-0.05, 0.08, -0.03);
   finish(talk("wait pose\n" + pose(way, 1, "base_link", mounted) + "again 200 10000\n"));
   EXPECT_EQ(stop(server, SIGTERM).exit_code, 0);
-  const Eigen::Vector3d wrist = last_wrist(lines(log, "state").back(), mounted).translation();
+  const Eigen::Vector3d wrist = last_wrist(last_line(log, "state"), mounted).translation();
   EXPECT_LT((wrist - wrist_at_rest(mounted).translation() - way).norm(), 1e-4) << wrist.transpose();
   expect_safe(log);
 
@@ -122,7 +122,7 @@ TEST_F(RobotServerArm, TheArmKnowsHowTheHandIsMounted) {
 TEST_F(RobotServerArm, TheArmStartsAtALimitAndNotBeyond) {
   const std::string log = path("arm.jsonl");
   stop(serve_until_ready("arm", log), SIGTERM);
-  const std::string last = lines(log, "state").back().dump();
+  const std::string last = last_line(log, "state").dump();
   const auto log_at = [&](double angle_deg) {
     json state = json::parse(last);
     state["position_deg"]["S1"] = angle_deg;

@@ -112,6 +112,11 @@ class RobotServer : public DdsBus {
     }
     return found;
   }
+  /// Null if there is none.
+  static json last_line(const std::string& log, const std::string& event) {
+    const std::vector<json> found = lines(log, event);
+    return found.empty() ? json() : found.back();
+  }
   static int64_t received(const std::string& log, const std::string& topic, const std::string& receipt) {
     const std::vector<json> all = lines(log, "received");
     return std::ranges::count_if(
@@ -122,8 +127,10 @@ class RobotServer : public DdsBus {
     return received(log, topic, "accepted") + received(log, topic, "starting") + received(log, topic, "stale");
   }
   static bool had_gaps(const ProgramRun& run) { return run.out.find("; gaps: ") != std::string::npos; }
+  /// NaN before the first state.
   static double last_angle(const std::string& log, const std::string& joint) {
-    return lines(log, "state").back().at("position_deg").at(joint).get<double>();
+    const json state = last_line(log, "state");
+    return state.is_null() ? std::nan("") : state.at("position_deg").at(joint).get<double>();
   }
   /// The guard's for hand joints, else the arm's.
   /// Units: rad/s.

@@ -102,7 +102,7 @@ TEST_F(RobotServer, HoldsAndStopsWhenItsSenderDiesAndFollowsTheNext) {
   const StartedProgram first = talk("wait hand\n" + fingers(10, 1000) + "again 10000 10000\n");
   ASSERT_TRUE(comes_true([&] { return received(log, "fingers", "accepted") > 20; }));
   stop(first, SIGKILL);
-  const auto state_is = [&](const char* state) { return lines(log, "state").back().at("state") == state; };
+  const auto state_is = [&](const char* state) { return last_line(log, "state").at("state") == state; };
   EXPECT_TRUE(comes_true([&] { return state_is("stopped"); }));
   // Holds before it stops, unless it had a pause.
   const std::vector<json> states = lines(log, "state");
@@ -205,7 +205,7 @@ TEST_F(RobotServer, ATerminalThatIsClosedEndsItCleanly) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("hand: messages: "));
   stop(sender, SIGKILL);
-  const json last = lines(log, "interval").back();
+  const json last = last_line(log, "interval");
   // Intervals are rounded outward, to 1e-6 degrees.
   EXPECT_NEAR(last.at("min_deg").at("rh_THJ3"), last.at("max_deg").at("rh_THJ3"), 2.5e-6)
       << "the log says where it stands";
