@@ -1,6 +1,7 @@
 #include "render/subjects/surface_net.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -11,6 +12,10 @@ namespace {
 
 using Index = Eigen::Vector3i;
 
+/// Cells from the surface beyond which a node needs no exact value: an edge that crosses the surface is one cell
+/// long.
+constexpr double kFar = 1.001;
+
 class SurfaceNetMaker {
  public:
   SurfaceNetMaker(const std::function<double(const Eigen::Vector3d&)>& field, const Eigen::AlignedBox3d& box,
@@ -18,7 +23,8 @@ class SurfaceNetMaker {
       : origin_(box.min()), cell_(cell), nodes_((box.sizes() / cell).array().ceil().cast<int>() + 2) {
     values_.reserve(static_cast<size_t>(nodes_.prod()));
     for_each_node([&](const Index& i) {
-      values_.push_back(field(place(i.cast<double>())));
+      const double bound = bound_of(i);
+      values_.push_back(std::abs(bound) > kFar * cell_ ? bound : field(place(i.cast<double>())));
       const bool on_border = (i.array() == 0).any() || (i.array() == nodes_.array() - 1).any();
       check(!on_border || values_.back() > 0, "the box holds the whole surface");
     });
@@ -48,6 +54,18 @@ class SurfaceNetMaker {
     return (static_cast<size_t>(i.z()) * nodes_.y() + i.y()) * nodes_.x() + i.x();
   }
   Eigen::Vector3d place(const Eigen::Vector3d& node) const { return origin_ + cell_ * node; }
+
+  /// A value of the node's sign that is no farther from 0, as its neighbors before it tell; 0 if they do not.
+  double bound_of(const Index& node) const {
+    double bound = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (node[axis] == 0) continue;
+      const double neighbor = values_[number(node - Index::Unit(axis))];
+      const double least = std::abs(neighbor) - cell_;
+      if (least > std::abs(bound)) bound = std::copysign(least, neighbor);
+    }
+    return bound;
+  }
 
   /// The vertex of the cell whose lowest corner is this node: the mean of the crossings of its twelve edges.
   void add_vertex(const Index& lowest) {
