@@ -74,6 +74,8 @@ struct BenchData {
 /// Throws: Error.
 void prepare(const Settings& settings);
 const BenchData& data();
+/// Every fourth frame, for plain implementations that take long.
+std::vector<const BenchFrame*> some_frames();
 
 /// Returns the first result of this name, so that repetitions check an answer once.
 template <typename Compute>

@@ -57,13 +57,6 @@ void set_errors(benchmark::State& state, const Errors& errors) {
   state.counters["rotation_deg"] = errors.rotation_deg;
 }
 
-/// Some: the plain search takes its time.
-std::vector<const BenchFrame*> some_frames() {
-  std::vector<const BenchFrame*> frames;
-  for (size_t i = 0; i < data().frames.size(); i += 4) frames.push_back(&data().frames[i]);
-  return frames;
-}
-
 /// Counts the iterations of all frames. Empty if an alignment differs from the plain one.
 std::optional<int> iterations_like_plain(const std::vector<const BenchFrame*>& frames, const IcpConfig& config) {
   IcpConfig plain = config;

@@ -37,18 +37,11 @@ NormalEquations fast_equations(const Matched& matched, std::span<const FaceBodie
   return sums.equations();
 }
 
-/// Every sixth frame, because the plain sums take long.
-std::vector<std::unique_ptr<Matched>> some_frames() {
-  std::vector<std::unique_ptr<Matched>> frames;
-  for (size_t f = 0; f < data().frames.size(); f += 6)
-    frames.push_back(std::make_unique<Matched>(data().frames[f]));
-  return frames;
-}
-
 void pull_sums(benchmark::State& state, Implementation implementation) {
   const std::vector<BodyShares> shares = body_shares(*data().model);
   const std::vector<FaceBodies> faces = face_bodies(*data().model, shares);
-  const std::vector<std::unique_ptr<Matched>> frames = some_frames();
+  std::vector<std::unique_ptr<Matched>> frames;
+  for (const BenchFrame* frame : some_frames()) frames.push_back(std::make_unique<Matched>(*frame));
   const bool are_equal = once("pull sums", [&] {
     return std::ranges::all_of(frames, [&](const auto& frame) {
       const NormalEquations plain = plain_equations(*frame, shares), fast = fast_equations(*frame, faces);
