@@ -52,7 +52,8 @@ std::vector<Movement> movements_of(FrameSet set, const Skeleton& skeleton) {
   if (set == FrameSet::judging) return generated_movements(kJudgingSeeds, skeleton);
   std::vector<Movement> movements;
   for (const std::string& name : trajectories::ground_truth_names())
-    movements.push_back(movement_of(trajectories::source_trajectory(kTrajectoryFolder, name)));
+    if (set == FrameSet::paper || name == "Tr4")
+      movements.push_back(movement_of(trajectories::source_trajectory(kTrajectoryFolder, name)));
   return movements;
 }
 

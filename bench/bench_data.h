@@ -27,10 +27,11 @@ struct Movement {
 /// Every 19th frame of these movements.
 enum class FrameSet {
   paper,    ///< the five source trajectories
+  tr4,      ///< one of them
   tuning,   ///< generated: two of each family, to choose constants
   judging,  ///< generated: two others
 };
-constexpr auto names_of(FrameSet) { return std::to_array<std::string_view>({"paper", "tuning", "judging"}); }
+constexpr auto names_of(FrameSet) { return std::to_array<std::string_view>({"paper", "Tr4", "tuning", "judging"}); }
 
 /// GLOVEBENCH_CACHE, the user's or a new temporary folder.
 /// Throws: Error.
