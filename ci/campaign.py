@@ -3,14 +3,11 @@
 its own arithmetic.
 
 ci/campaign.py effect BASELINE CANDIDATE NOISE_FLOOR  the largest harm, in units of its minimum effect
-ci/campaign.py split RESULTS SEEDS FOLDER             FOLDER/NNN/results.json with SEEDS seeds each
 ci/campaign.py interval ALARMS RUNS                   the share and its Clopper-Pearson 95% interval
 """
 
-import copy
 import json
 import math
-import pathlib
 import sys
 
 VALUES = ["position_error_mm", "rotation_error_deg", "posture_rms_deg", "posture_rms_unfiltered_deg",
@@ -72,39 +69,6 @@ def effect(baseline, candidate, noise_floor):
     return 0 if units[row] >= 1 else 1
 
 
-def coverage_of(runs, columns):
-    frames = [dict(zip(columns, row)) for run in runs for row in run["frames"]]
-    counts = {"frames": len(frames), "covered": sum(frame["covered"] for frame in frames),
-              "lost": sum(frame["status"] != "tracked" for frame in frames),
-              "false_tracked": sum(frame["false_tracked"] for frame in frames),
-              "false_lost": sum(frame["false_lost"] for frame in frames)}
-    return counts | {"share": counts["covered"] / counts["frames"] if frames else None}
-
-
-def recount(aggregates, runs, columns):
-    """Counts and means of these runs; what else there is stays that of the whole and is read by nobody."""
-    for key, aggregate in aggregates.items():
-        values = [row[columns.index(key)] for run in runs for row in run["frames"]]
-        values = [value for value in values if value is not None]
-        aggregate["count"] = len(values)
-        aggregate["mean"] = math.fsum(values) / len(values) if values else None
-
-
-def split(path, seeds, folder):
-    whole = load(path)
-    runs = [experiment.pop("runs") for experiment in whole["experiments"]]
-    for part in range(min(map(len, runs)) // seeds):
-        result = copy.deepcopy(whole)
-        for experiment, all_runs in zip(result["experiments"], runs):
-            experiment["runs"] = all_runs[part * seeds:(part + 1) * seeds]
-            experiment["coverage"] = coverage_of(experiment["runs"], whole["frame_columns"])
-            recount(experiment["aggregates"], experiment["runs"], whole["frame_columns"])
-        target = pathlib.Path(folder, f"{part:03d}", "results.json")
-        target.parent.mkdir(parents=True)
-        target.write_text(json.dumps(result), encoding="utf-8")
-    return 0
-
-
 def at_most(count, trials, chance):
     """P(X <= count) of a binomial X."""
     return math.fsum(math.comb(trials, k) * chance**k * (1 - chance)**(trials - k) for k in range(count + 1))
@@ -134,8 +98,6 @@ def main(arguments):
     match arguments:
         case ["effect", baseline, candidate, noise_floor]:
             return effect(baseline, candidate, noise_floor)
-        case ["split", path, seeds, folder]:
-            return split(path, int(seeds), folder)
         case ["interval", alarms, trials]:
             return interval(int(alarms), int(trials))
     print(__doc__, file=sys.stderr)
