@@ -2,6 +2,7 @@
 
 #include <GL/osmesa.h>
 
+#include <array>
 #include <cstdlib>
 #include <mutex>
 
