@@ -109,7 +109,7 @@ reports::SettingsTable settings_table(const std::vector<std::string>& folders, r
 
 void write_settings_table(const std::string& folder, const reports::SettingsTable& table,
                           const std::vector<reports::StudyResult>& studies) {
-  reports::require_own_folder(folder);
+  reports::require_own_folder(folder, {"table.md", "index.html"});
   WholeFiles files(folder);
   files.add("table.md", settings_markdown(table));
   files.add("table.csv", settings_csv(table));

@@ -182,6 +182,15 @@ std::optional<Manifest> read_manifest(const std::string& folder) {
   return parse_manifest(read_regular_file(path, kLargestManifest), path);
 }
 
+void require_own_files(const std::string& folder, std::initializer_list<const char*> names) {
+  const Manifest manifest = read_manifest(folder).value_or(Manifest{});
+  const std::string kind = *names.begin();
+  for (const std::string name : names)
+    if (fs::exists(folder + "/" + name) && !(manifest.contains(kind) && manifest.contains(name)))
+      throw Error("--output", "folder", fmt::format("{}/{}, which was not written with {}", folder, name, kind),
+                  "another folder");
+}
+
 const ManifestEntry* FileSet::entry(const std::string& name) const {
   if (!manifest_) return nullptr;
   const auto found = manifest_->find(name);

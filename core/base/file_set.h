@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -39,6 +40,9 @@ Manifest parse_manifest(const std::string& text, const std::string& where);
 /// Empty if the folder has none.
 /// Throws: Error if it is unreadable.
 std::optional<Manifest> read_manifest(const std::string& folder);
+/// For what is written by the flag --output.
+/// Throws: Error if one of the files exists, unless the folder's manifest names it and the first.
+void require_own_files(const std::string& folder, std::initializer_list<const char*> names);
 
 /// Reads files of one state of the folder.
 class FileSet {

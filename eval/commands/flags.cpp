@@ -256,13 +256,7 @@ void CommonFlags::check_output_folder() const {
 
 void CommonFlags::check_report_folder() const {
   check_output_folder();
-  const std::optional<Manifest> manifest = read_manifest(output);
-  for (const std::string name : {"config.json", "index.html", "summary.md"}) {
-    const std::string path = output + "/" + name;
-    if (!std::filesystem::exists(path)) continue;
-    if (!manifest || !manifest->contains(name) || !manifest->contains("results.json"))
-      throw Error("--output", "folder", path + ", which no run wrote", "another folder");
-  }
+  require_own_files(output, {"results.json", "config.json", "index.html", "summary.md"});
 }
 
 }  // namespace glovebench::eval

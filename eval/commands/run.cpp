@@ -86,7 +86,7 @@ struct RunCommand {
   void compare_settings(Workbench& workbench, const Plan& plan, const std::vector<NamedTracker>& settings) {
     if (!robot.output.empty()) throw Error("--robot-out", "settings", "several", "one");
     common.check_output_folder();
-    reports::require_own_folder(common.output);
+    reports::require_own_folder(common.output, {"table.md", "index.html"});
     const RobotOutput robot_output = robot.output_of(workbench);
     std::vector<TrackerConfig> trackers;
     for (const NamedTracker& setting : settings) trackers.push_back(setting.tracker);

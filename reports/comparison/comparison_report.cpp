@@ -84,10 +84,11 @@ std::string comparison_latex(const ComparisonReport& report) {
          to_latex(verdict_first(rows_table(comparison.rows)));
 }
 
-void require_own_folder(const std::string& folder) {
+void require_own_folder(const std::string& folder, std::initializer_list<const char*> names) {
   if (std::filesystem::exists(folder + "/results.json"))
     throw Error("--output", "folder", folder + ", which holds a run or a baseline",
                 "another: both have an index.html");
+  require_own_files(folder, names);
 }
 
 std::vector<std::string> write_comparison(const std::string& folder, const ComparisonReport& report) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ std::string incomparable_junit(const std::string& message);
 std::string incomparable_markdown(const std::string& message);
 std::string comparison_page(const ComparisonReport& report);
 
-/// Throws: Error if the folder holds a run or baseline. The functions below call this.
-void require_own_folder(const std::string& folder);
+/// Throws: Error if the folder holds a run or baseline, or as require_own_files. The functions below call this.
+void require_own_folder(const std::string& folder,
+                        std::initializer_list<const char*> names = {"junit.xml", "index.html"});
 
 /// Writes a comparison's files (reports/README.md) as one set (core/base/file_set.h). Returns their names.
 /// Throws: Error.
