@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "ci/build_paths.h"
+#include "core/base/file_set.h"
 #include "eval/test_program.h"
 
 namespace glovebench::eval {
@@ -33,11 +34,13 @@ class CommandLine : public testing::Test {
   void SetUp() override {
     folder_ = test_folder();
     output_ = path("out");
-    write_file(output_ + "/results.json", "earlier");
+    WholeFiles files(output_);
+    files.add("results.json", "earlier");
+    files.commit();
+    earlier_ = read_folder(output_);
   }
   void TearDown() override {
-    EXPECT_EQ(read_folder(output_), (std::map<std::string, std::string>{{"results.json", "earlier"}}))
-        << "earlier results are untouched";
+    EXPECT_EQ(read_folder(output_), earlier_) << "earlier results are untouched";
     fs::remove_all(folder_);
   }
 
@@ -60,6 +63,7 @@ class CommandLine : public testing::Test {
 
   std::string folder_;
   std::string output_;
+  std::map<std::string, std::string> earlier_;
 };
 
 TEST_F(CommandLine, MissingOrUnknownWords) {
