@@ -32,8 +32,8 @@ constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpr
 constexpr double kArchSpread = 40, kThumbPlaceSpread = 20;
 /// A size whose deviation stays above this share of its spread between people was not seen.
 constexpr double kSeenShare = 0.5;
-constexpr double kMostStep = 5;                                                    ///< percent a round
-constexpr double kShiftStep = 0.0005, kMostShiftStep = 0.001, kMostShift = 0.006;  ///< m
+constexpr double kMostStep = 5;                                ///< percent a round
+constexpr double kShiftStep = 0.0005, kMostShiftStep = 0.001;  ///< m
 constexpr double kBorderCut_mm = 3;  ///< a distance counts as at most this when border shifts are compared
 constexpr int kShiftPoints = 3000;   ///< of a view
 
@@ -144,7 +144,7 @@ class Fit {
     const double most = kMostShiftStep / kShiftStep;
     const double steps = curvature > 0 ? std::clamp(-slope / curvature, -most, most) : (slope > 0 ? -most : most);
     fit_.shape.patch_border_shift =
-        std::clamp(fit_.shape.patch_border_shift + steps * kShiftStep, -kMostShift, kMostShift);
+        std::clamp(fit_.shape.patch_border_shift + steps * kShiftStep, -kMostBorderShift, kMostBorderShift);
   }
 
   double mean_square(const HandModel& model) const {

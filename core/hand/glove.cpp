@@ -14,11 +14,22 @@ constexpr double kCuffSlope = 1 / 0.005;  // 1/m
 constexpr double kCuffStart = 0.002;      // m past the wrist joint
 constexpr double kPalmHalfWidth = 0.03;   // m
 constexpr double kWeightRamp = 0.015;     // m over which the weights change from one segment to the next
+/// A patch that grows needs this weight: less than both segments have at a border that is shifted by
+/// kMostBorderShift.
+constexpr double kGrowingWeight = 0.3;
 
 /// Joint whose weight makes a vertex part of the patch; finger segments and thenar only.
 constexpr std::array<int, 15> kSegmentJoint = {2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23, 1};
-/// Number of segments from the palm. Shifted borders shrink the outer ones.
+/// Number of segments from the palm.
 constexpr std::array<int, 15> kSegmentLevel = {2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1};
+constexpr int kLevels = 3;
+
+/// What shifted borders add to the score of a patch: to inner ones if they shift towards the fingertips, else to
+/// outer ones.
+double growth(double border_shift, int level, double weight) {
+  const int levels = border_shift > 0 ? kLevels - level : level;
+  return std::abs(border_shift) / kWeightRamp * levels * std::min(1.0, weight / kGrowingWeight);
+}
 
 std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh) {
   std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
@@ -254,16 +265,18 @@ std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shif
     double palm = 1;
     for (size_t s = 0; s < kSegmentJoint.size(); ++s) {
       const double weight = influence.weight_of(kSegmentJoint[s]);
-      scores[v][s] = weight - border_shift / kWeightRamp * kSegmentLevel[s];
+      scores[v][s] = weight + growth(border_shift, kSegmentLevel[s], weight);
       palm -= weight;
     }
+    palm += growth(border_shift, 0, palm);
     const double dorsal = kSplit * normals[v].y();
     const double ulnar = kSplit * (mesh.vertices[v].x() - x_middle - border_shift) / kPalmHalfWidth;
     scores[v][kPalmRadial] = palm - dorsal - ulnar;
     scores[v][kPalmUlnar] = palm - dorsal + ulnar;
     scores[v][kBackRadial] = palm + dorsal - ulnar;
     scores[v][kBackUlnar] = palm + dorsal + ulnar;
-    scores[v][kCuff] = 1 + kCuffSlope * (mesh.vertices[v].z() - z_wrist - kCuffStart + border_shift);
+    scores[v][kCuff] =
+        1 + growth(border_shift, 0, 1) + kCuffSlope * (mesh.vertices[v].z() - z_wrist - kCuffStart + border_shift);
   }
   return scores;
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view kHandFormat = "glovebench-hand";
 constexpr int kHandVersion = 1;
-constexpr double kMostDeviation = 1, kMostShift_mm = 20, kMostResidual_mm = 1000;
+constexpr double kMostDeviation = 1, kMostShift_mm = 1000 * kMostBorderShift, kMostResidual_mm = 1000;
 constexpr int kMostViews = 1'000'000;
 
 /// The nearest number with six digits after the point.

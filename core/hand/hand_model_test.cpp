@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
@@ -55,6 +56,44 @@ TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
       EXPECT_GT(litres, 0.2);
       EXPECT_LT(litres, 0.6);
     }
+  }
+}
+
+/// Sizes that vary by 8%, and any shift that `calibrate hand` can find.
+HandShape drawn_shape(uint64_t seed) {
+  RandomStream random(seed, "shape", 0, "sizes");
+  HandShape shape;
+  for (double& size : shape.sizes) size = std::clamp(1 + 0.08 * random.normal(), 0.5, 1.6);
+  shape.patch_border_shift = random.uniform(-kMostBorderShift, kMostBorderShift);
+  return shape;
+}
+
+TEST(HandModel, is_closed_whatever_its_sizes_and_borders) {
+  for (uint64_t seed = 1; seed <= 40; ++seed)
+    expect_closed(HandModel::load(build_paths::hand_mesh(), Side::right, drawn_shape(seed)));
+}
+
+/// How many parts a patch has that share no edge.
+int parts_of(const HandModel& model, int patch) {
+  std::map<uint32_t, uint32_t> above;
+  const auto top = [&](uint32_t vertex) {
+    while (above.try_emplace(vertex, vertex).first->second != vertex) vertex = above[vertex];
+    return vertex;
+  };
+  for (const Triangle& t : model.triangles())
+    if (t.patch == patch)
+      for (int i = 1; i < 3; ++i) above[top(t.vertices[i])] = top(t.vertices[0]);
+  return static_cast<int>(std::ranges::count_if(above, [](const auto& link) { return link.first == link.second; }));
+}
+
+TEST(HandModel, shifted_borders_leave_patches_in_their_places) {
+  for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    HandShape shape;
+    shape.patch_border_shift = share * kMostBorderShift;
+    const HandModel model = HandModel::load(build_paths::hand_mesh(), Side::right, shape);
+    for (int patch = 0; patch < kPatchCount; ++patch)
+      EXPECT_THAT(parts_of(model, patch), testing::AllOf(testing::Ge(1), testing::Le(patch == kPalmRadial ? 2 : 1)))
+          << "patch " << patch << ", " << share;
   }
 }
 

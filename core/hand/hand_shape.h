@@ -25,6 +25,7 @@ enum HandSize : int {
 };
 using HandSizes = std::array<double, kSizeCount>;
 inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
+inline constexpr double kMostBorderShift = 0.006;  ///< m
 
 /// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
@@ -36,7 +37,7 @@ struct HandShape {
     ones.fill(1);
     return ones;
   }();
-  double patch_border_shift = 0;  ///< towards the fingertips, m
+  double patch_border_shift = 0;  ///< towards the fingertips, m, up to kMostBorderShift either way
 };
 
 /// Subject 2 (render/README.md).
