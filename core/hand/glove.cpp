@@ -24,8 +24,8 @@ constexpr std::array<int, 15> kSegmentJoint = {2, 3, 6, 7, 8, 11, 12, 13, 16, 17
 constexpr std::array<int, 15> kSegmentLevel = {2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3, 1};
 constexpr int kLevels = 3;
 
-/// What shifted borders add to the score of a patch: to inner ones if they shift towards the fingertips, else to
-/// outer ones.
+/// What a shift of the borders adds to a patch's score. A shift towards the fingertips lets inner patches grow. A
+/// shift towards the wrist lets outer ones grow.
 double growth(double border_shift, int level, double weight) {
   const int levels = border_shift > 0 ? kLevels - level : level;
   return std::abs(border_shift) / kWeightRamp * levels * std::min(1.0, weight / kGrowingWeight);

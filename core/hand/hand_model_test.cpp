@@ -73,7 +73,7 @@ TEST(HandModel, is_closed_whatever_its_sizes_and_borders) {
     expect_closed(HandModel::load(build_paths::hand_mesh(), Side::right, drawn_shape(seed)));
 }
 
-/// How many parts a patch has that share no edge.
+/// How many parts a patch has that share no vertex.
 int parts_of(const HandModel& model, int patch) {
   std::map<uint32_t, uint32_t> above;
   const auto top = [&](uint32_t vertex) {
