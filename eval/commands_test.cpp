@@ -206,10 +206,9 @@ TEST_F(CommandsLong, AReportReplacesNothingElse) {
   for (const char* name : {"config.json", "index.html", "summary.md", "results.json"}) {
     const std::string folder = path(std::string("keep_") + name);
     write_file(folder + "/" + name, "mine");
-    EXPECT_THAT(
-        refusal(run_glovebench(
-            {"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o", folder})),
-        HasSubstr(std::string(name) + ", which was not written with results.json, expected another folder"));
+    EXPECT_THAT(refusal(run_glovebench(
+                    {"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o", folder})),
+                HasSubstr(std::string(name) + ", which no report of this kind wrote, expected another folder"));
     EXPECT_EQ(read_folder(folder).size(), 1U);
   }
   run_trajectory("good.json", "out");
@@ -217,12 +216,12 @@ TEST_F(CommandsLong, AReportReplacesNothingElse) {
   expect_fine(run_glovebench({"compare", path("out"), path("out"), "-o", path("compared")}));
   EXPECT_THAT(refusal(run_glovebench({"run", "--trajectory", path("good.json"), "--database", "DB_open_power", "-o",
                                       path("compared")})),
-              HasSubstr("index.html, which was not written with results.json"));
+              HasSubstr("index.html, which no report of this kind wrote"));
   for (const char* name : {"index.html", "junit.xml"}) {
     const std::string folder = path(std::string("compared_") + name);
     write_file(folder + "/" + name, "mine");
     EXPECT_THAT(refusal(run_glovebench({"compare", path("out"), path("out"), "-o", folder})),
-                HasSubstr(std::string(name) + ", which was not written with junit.xml, expected another folder"));
+                HasSubstr(std::string(name) + ", which no report of this kind wrote, expected another folder"));
     EXPECT_EQ(read_folder(folder).size(), 1U);
   }
   expect_fine(run_glovebench({"compare", path("out"), path("out"), "-o", path("compared")}));

@@ -187,7 +187,7 @@ void require_own_files(const std::string& folder, std::initializer_list<const ch
   const std::string kind = *names.begin();
   for (const std::string name : names)
     if (fs::exists(folder + "/" + name) && !(manifest.contains(kind) && manifest.contains(name)))
-      throw Error("--output", "folder", fmt::format("{}/{}, which was not written with {}", folder, name, kind),
+      throw Error("--output", "folder", fmt::format("{}/{}, which no report of this kind wrote", folder, name),
                   "another folder");
 }
 
