@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/calibration/seen_surface.h"
 #include "core/calibration/size_equations.h"
 #include "core/pose/surface_matcher.h"
 
@@ -17,14 +18,11 @@ namespace {
 struct Round {
   double wide_mm, middle_mm, narrow_mm, sizes_mm;
 };
-constexpr std::array<Round, 8> kRounds = {{{25, 16, 12, 12},
-                                           {16, 12, 8, 8},
-                                           {12, 8, 6, 6},
-                                           {12, 6, 4, 5},
-                                           {12, 6, 4, 4},
-                                           {12, 6, 4, 4},
-                                           {12, 6, 4, 4},
-                                           {12, 6, 4, 4}}};
+constexpr std::array<Round, 5> kRounds = {
+    {{25, 16, 12, 12}, {16, 12, 8, 8}, {12, 8, 6, 6}, {12, 6, 4, 5}, {12, 6, 4, 4}}};
+/// The last round again and again: sizes and heights are found in turn, so that they settle slowly.
+constexpr int kRoundCount = 28;
+const Round& round_at(int round) { return kRounds[std::min<size_t>(round, kRounds.size() - 1)]; }
 
 /// Standard deviations between people of scale, palm and segments, percent (hand_dimensions.h names sources).
 constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpread = 8;
@@ -32,10 +30,8 @@ constexpr double kScaleSpread = 8, kPalmSpread = 6, kLengthSpread = 6, kWidthSpr
 constexpr double kArchSpread = 40, kThumbPlaceSpread = 20;
 /// A size whose deviation stays above this share of its spread between people was not seen.
 constexpr double kSeenShare = 0.5;
-constexpr double kMostStep = 5;                                ///< percent a round
-constexpr double kShiftStep = 0.0005, kMostShiftStep = 0.001;  ///< m
-constexpr double kBorderCut_mm = 3;  ///< a distance counts as at most this when border shifts are compared
-constexpr int kShiftPoints = 3000;   ///< of a view
+constexpr double kMostStep = 10;       ///< percent a round
+constexpr int kResidualPoints = 3000;  ///< of a view
 
 SizeVector spreads() {
   SizeVector spread;
@@ -58,10 +54,10 @@ class Fit {
   HandFit run() {
     fit_.residual_before = Fit(views_, camera_, mesh_).residual_of_mesh();
     refine_poses(kRounds.front());
-    for (const Round& round : kRounds) {
-      refine_poses(round);
-      step_sizes(round);
-      step_border_shift();
+    for (int round = 0; round < kRoundCount; ++round) {
+      refine_poses(round_at(round));
+      step_sizes(round_at(round));
+      if (round > 0) step_surface();
     }
     refine_poses(kRounds.back());
     fit_.residual = look_at_patches();
@@ -69,7 +65,7 @@ class Fit {
   }
 
  private:
-  /// The mean distance of the points with the sizes of the mesh, after as many rounds of poses as `run` makes, m.
+  /// The mean distance of the points with the sizes of the mesh, m.
   double residual_of_mesh() {
     refine_poses(kRounds.front());
     for (const Round& round : kRounds) refine_poses(round);
@@ -77,8 +73,7 @@ class Fit {
     return look_at_patches();
   }
 
-  HandModel hand() const { return hand(fit_.shape); }
-  HandModel hand(const HandShape& shape) const { return HandModel::load(mesh_.path, mesh_.side, shape); }
+  HandModel hand() const { return HandModel::load(mesh_.path, mesh_.side, fit_.shape); }
 
   /// Calls work(v) for each view.
   template <typename Work>
@@ -132,33 +127,15 @@ class Fit {
     for (size_t v = 0; v < views_.size(); ++v) fit_.poses[v] = moved(fit_.poses[v], of_views[v].step(step));
   }
 
-  /// One step to the least mean square of distances over three shifts (a parabola).
-  void step_border_shift() {
-    std::array<double, 3> cost{};
-    for (int i = 0; i < 3; ++i) {
-      HandShape shape = fit_.shape;
-      shape.patch_border_shift += (i - 1) * kShiftStep;
-      cost[i] = mean_square(hand(shape));
-    }
-    const double slope = (cost[2] - cost[0]) / 2, curvature = cost[0] - 2 * cost[1] + cost[2];
-    const double most = kMostShiftStep / kShiftStep;
-    const double steps = curvature > 0 ? std::clamp(-slope / curvature, -most, most) : (slope > 0 ? -most : most);
-    fit_.shape.patch_border_shift =
-        std::clamp(fit_.shape.patch_border_shift + steps * kShiftStep, -kMostBorderShift, kMostBorderShift);
-  }
-
-  double mean_square(const HandModel& model) const {
-    std::vector<double> sums(views_.size());
-    for_each_view([&](size_t v) {
-      const int without_face = for_each_point(model, v, kShiftPoints, [&](double distance, int) {
-        const double cut_mm = std::min(1000 * distance, kBorderCut_mm);
-        sums[v] += cut_mm * cut_mm / kShiftPoints;
-      });
-      sums[v] += without_face * kBorderCut_mm * kBorderCut_mm / kShiftPoints;
-    });
-    double sum = 0;
-    for (const double of_view : sums) sum += of_view;
-    return sum / static_cast<double>(views_.size());
+  /// The surface moves to the points, and its patches to their colors.
+  void step_surface() {
+    const HandAndMesh both{hand(), HandModel::load_plain(mesh_.path, mesh_.side, fit_.shape)};
+    std::vector<SeenSurface> of_views(views_.size(), SeenSurface(both.plain.vertex_count()));
+    for_each_view([&](size_t v) { of_views[v] = seen_surface(both, views_[v], fit_.poses[v]); });
+    SeenSurface seen = std::move(of_views.front());
+    for (size_t v = 1; v < of_views.size(); ++v) seen += of_views[v];
+    fit_.shape.heights = heights_of(seen, both.plain, fit_.shape.heights);
+    fit_.shape.patch_votes = votes_of(seen);
   }
 
   /// Calls visit(distance from the surface, patch) for each point of a view that has a closest face; returns the
@@ -187,7 +164,7 @@ class Fit {
     const HandModel model = hand();
     std::vector<std::array<PatchFit, kPatchCount>> of_views(views_.size());
     for_each_view([&](size_t v) {
-      for_each_point(model, v, kShiftPoints, [&](double distance, int patch) {
+      for_each_point(model, v, kResidualPoints, [&](double distance, int patch) {
         ++of_views[v][patch].points;
         of_views[v][patch].residual += distance;
       });

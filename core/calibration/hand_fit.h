@@ -29,9 +29,9 @@ struct HandFit {
   std::array<PatchFit, kPatchCount> patches{};
 };
 
-/// Fits a hand's sizes, with pose and posture in each view. Each round refines the poses, takes a Gauss-Newton step
-/// of all sizes, then shifts the patch borders. Sizes that the views do not show stay near the mesh's. Uses the
-/// caller's TBB arena. Threads do not change results.
+/// Fits a hand's shape, with pose and posture in each view. Each round refines the poses, takes a Gauss-Newton step
+/// of all sizes, then moves surface and patches to the points. What the views do not show stays near the mesh. Uses
+/// the caller's TBB arena. Threads do not change results.
 HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh);
 
 }  // namespace glovebench::calibration

@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace glovebench::calibration {
 namespace {
 
-constexpr std::array<std::string_view, kPatchCount> kPatchNames = {
-    "thumb_proximal",  "thumb_distal",        "index_proximal",      "index_intermediate", "index_distal",
-    "middle_proximal", "middle_intermediate", "middle_distal",       "ring_proximal",      "ring_intermediate",
-    "ring_distal",     "little_proximal",     "little_intermediate", "little_distal",      "thenar",
-    "palm_radial",     "palm_ulnar",          "back_radial",         "back_ulnar",         "cuff"};
 constexpr std::array<std::string_view, 5> kFingerNames = {"thumb", "index", "middle", "ring", "little"};
 
 double to_digits(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
@@ -27,6 +23,17 @@ std::vector<std::string> unseen_sizes(const HandFit& fit) {
 /// Points of a patch that a view shows on average.
 double points_a_view(const HandFit& fit, int patch) {
   return static_cast<double>(fit.patches[patch].points) / static_cast<double>(fit.poses.size());
+}
+
+struct HeightRange {
+  double least = 0, most = 0, rms = 0;  ///< m
+};
+HeightRange range_of_heights(const HandShape& shape) {
+  if (shape.heights.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(shape.heights);
+  double squares = 0;
+  for (const double height : shape.heights) squares += height * height;
+  return {least, most, std::sqrt(squares / static_cast<double>(shape.heights.size()))};
 }
 
 std::string percent_text(double factor) { return fmt::format("{:+.1f}", 100 * (factor - 1)); }
@@ -57,10 +64,11 @@ std::vector<std::string> hand_warnings(const HandFit& fit, const ShownMotion& mo
           fmt::format("the {} bends by {:.0f} degrees alone", kFingerNames[finger], motion.bend_deg[finger]));
   for (int patch = 0; patch < kPatchCount; ++patch) {
     if (points_a_view(fit, patch) < kFewPoints)
-      warnings.push_back(fmt::format("patch {} is hardly seen: turn the hand further", kPatchNames[patch]));
+      warnings.push_back(fmt::format("patch {} is hardly seen: turn the hand further", patch_names()[patch]));
     else if (fit.patches[patch].residual > kMuch * fit.residual)
       warnings.push_back(fmt::format("patch {} lies {:.1f} mm off the fitted hand, all points {:.1f} mm",
-                                     kPatchNames[patch], 1000 * fit.patches[patch].residual, 1000 * fit.residual));
+                                     patch_names()[patch], 1000 * fit.patches[patch].residual,
+                                     1000 * fit.residual));
   }
   return warnings;
 }
@@ -74,14 +82,15 @@ nlohmann::ordered_json hand_report_json(const HandFit& fit, const ShownMotion& m
                      {"deviation", to_digits(fit.deviation[i], 1e6)},
                      {"seen", fit.seen[i]}});
   for (int p = 0; p < kPatchCount; ++p)
-    patches.push_back({{"patch", kPatchNames[p]},
+    patches.push_back({{"patch", patch_names()[p]},
                        {"points_per_frame", to_digits(points_a_view(fit, p), 1e3)},
                        {"residual_mm", to_digits(1000 * fit.patches[p].residual, 1e6)}});
+  const HeightRange heights = range_of_heights(fit.shape);
   nlohmann::ordered_json bends;
   for (size_t finger = 0; finger < motion.bend_deg.size(); ++finger)
     bends[std::string(kFingerNames[finger])] = to_digits(motion.bend_deg[finger], 1e3);
   return {{"format", "glovebench-hand-report"},
-          {"version", 1},
+          {"version", 2},
           {"recording", recording},
           {"frames", motion.views},
           {"duration_s", to_digits(motion.seconds, 1e3)},
@@ -89,23 +98,27 @@ nlohmann::ordered_json hand_report_json(const HandFit& fit, const ShownMotion& m
           {"bend_deg", bends},
           {"residual_before_mm", to_digits(1000 * fit.residual_before, 1e6)},
           {"residual_mm", to_digits(1000 * fit.residual, 1e6)},
-          {"patch_border_shift_mm", to_digits(1000 * fit.shape.patch_border_shift, 1e6)},
+          {"height_mm",
+           {{"least", to_digits(1000 * heights.least, 1e6)},
+            {"most", to_digits(1000 * heights.most, 1e6)},
+            {"rms", to_digits(1000 * heights.rms, 1e6)}}},
           {"sizes", sizes},
           {"patches", patches},
           {"warnings", hand_warnings(fit, motion)}};
 }
 
 std::string hand_report_markdown(const HandFit& fit, const ShownMotion& motion) {
+  const HeightRange heights = range_of_heights(fit.shape);
   std::string text = fmt::format(
       "{} frames over {:.1f} s; the hand turns by {:.0f} degrees, its fingers bend by {:.0f}, {:.0f}, {:.0f}, "
       "{:.0f} "
       "and {:.0f} degrees (thumb to little)\n"
       "mean distance of the points from the surface: {:.2f} mm as the mesh is, {:.2f} mm as fitted\n"
-      "patch borders {:.1f} mm towards the fingertips\n\n"
+      "surface {:.1f} to {:.1f} mm above the stretched mesh\n\n"
       "| size | against the mesh, % | standard deviation, % |\n| --- | ---: | ---: |\n",
       motion.views, motion.seconds, motion.turn_deg, motion.bend_deg[0], motion.bend_deg[1], motion.bend_deg[2],
-      motion.bend_deg[3], motion.bend_deg[4], 1000 * fit.residual_before, 1000 * fit.residual,
-      1000 * fit.shape.patch_border_shift);
+      motion.bend_deg[3], motion.bend_deg[4], 1000 * fit.residual_before, 1000 * fit.residual, 1000 * heights.least,
+      1000 * heights.most);
   for (int i = 0; i < kSizeCount; ++i)
     text += fmt::format("| {} | {} | {:.1f}{} |\n", hand_size_names()[i], percent_text(fit.shape.sizes[i]),
                         100 * fit.deviation[i], fit.seen[i] ? "" : ", not seen");

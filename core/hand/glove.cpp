@@ -1,7 +1,6 @@
 #include "core/hand/glove.h"
 
 #include <map>
-#include <span>
 
 #include "core/base/error.h"
 #include "core/hand/skeleton.h"
@@ -18,6 +17,9 @@ constexpr double kWeightRamp = 0.015;     // m over which the weights change fro
 /// kMostBorderShift.
 constexpr double kGrowingWeight = 0.3;
 
+/// Points that weigh as much as the layout by weights.
+constexpr double kOwnVotes = 20;
+
 /// Joint whose weight makes a vertex part of the patch; finger segments and thenar only.
 constexpr std::array<int, 15> kSegmentJoint = {2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23, 1};
 /// Number of segments from the palm.
@@ -29,18 +31,6 @@ constexpr int kLevels = 3;
 double growth(double border_shift, int level, double weight) {
   const int levels = border_shift > 0 ? kLevels - level : level;
   return std::abs(border_shift) / kWeightRamp * levels * std::min(1.0, weight / kGrowingWeight);
-}
-
-std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh) {
-  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
-  for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d normal =
-        (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
-    for (const uint32_t v : t) normals[v] += normal;
-  }
-  for (Eigen::Vector3d& n : normals)
-    if (n.norm() > 0) n.normalize();
-  return normals;
 }
 
 /// A point on the cut mesh as a blend of the original triangle's corners.
@@ -220,6 +210,15 @@ class PatchCutter {
 
 }  // namespace
 
+const std::array<std::string_view, kPatchCount>& patch_names() {
+  static constexpr std::array<std::string_view, kPatchCount> names = {
+      "thumb_proximal",  "thumb_distal",        "index_proximal",      "index_intermediate", "index_distal",
+      "middle_proximal", "middle_intermediate", "middle_distal",       "ring_proximal",      "ring_intermediate",
+      "ring_distal",     "little_proximal",     "little_intermediate", "little_distal",      "thenar",
+      "palm_radial",     "palm_ulnar",          "back_radial",         "back_ulnar",         "cuff"};
+  return names;
+}
+
 const std::array<uint8_t, kPatchCount>& patch_labels() {
   static constexpr std::array<uint8_t, kPatchCount> labels = {
       1,  2,      // thumb proximal, distal
@@ -279,6 +278,15 @@ std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shif
         1 + growth(border_shift, 0, 1) + kCuffSlope * (mesh.vertices[v].z() - z_wrist - kCuffStart + border_shift);
   }
   return scores;
+}
+
+void add_votes(std::vector<PatchScores>& scores, std::span<const PatchVotes> votes) {
+  std::vector<double> points(scores.size());
+  for (const PatchVotes& vote : votes) points.at(vote.vertex) += vote.points;
+  for (size_t v = 0; v < scores.size(); ++v)
+    for (double& score : scores[v]) score *= kOwnVotes / (kOwnVotes + points[v]);
+  for (const PatchVotes& vote : votes)
+    scores[vote.vertex][vote.patch] += vote.points / (kOwnVotes + points[vote.vertex]);
 }
 
 GlovedMesh cut_patches(const RiggedMesh& mesh, const std::vector<PatchScores>& scores) {

@@ -20,14 +20,13 @@ struct MeasuredHand {
   double residual = 0;                  ///< from fitted hand, m
 };
 
-inline constexpr uint64_t kLargestHandFile = uint64_t{64} << 10;  // bytes
+inline constexpr uint64_t kLargestHandFile = uint64_t{256} << 10;  // bytes
 
-/// Throws: Error if incomplete, of another version or mesh, or with impossible sizes.
+/// Throws: Error if incomplete, of another version or mesh, or of an impossible shape.
 MeasuredHand hand_from_json(const nlohmann::json& json, const std::string& where);
 nlohmann::ordered_json to_json(const MeasuredHand& hand);
 /// Throws: Error.
 MeasuredHand parse_hand(std::string_view text, const std::string& where);
 MeasuredHand load_hand(const std::string& path);
-std::string hand_text(const MeasuredHand& hand);
 
 }  // namespace glovebench

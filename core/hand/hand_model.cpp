@@ -47,6 +47,14 @@ RiggedMesh in_hand_frame(RiggedMesh mesh) {
   return mesh;
 }
 
+/// The mesh of a person, hand frame.
+RiggedMesh shaped_mesh(const std::string& path, const HandShape& shape) {
+  RiggedMesh mesh = load_rigged_mesh(path);
+  correct_mcp_centers(mesh);
+  // A stretched hand has its origin midway between its own joints.
+  return in_hand_frame(reshaped(with_forearm(in_hand_frame(mesh), kForearmLength), shape));
+}
+
 template <typename T>
 void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
@@ -100,29 +108,34 @@ const Bodies& bodies_of_hand() {
 
 }  // namespace
 
-HandModel HandModel::load(const std::string& mesh_path, Side side, const HandShape& shape) {
-  RiggedMesh mesh = load_rigged_mesh(mesh_path);
-  correct_mcp_centers(mesh);
-  mesh = reshaped(with_forearm(in_hand_frame(mesh), kForearmLength), shape);
-  // A stretched hand has its origin midway between its own joints.
-  mesh = in_hand_frame(mesh);
-  GlovedMesh glove = cut_patches(mesh, patch_scores(mesh, shape.patch_border_shift));
-
-  HandModel model;
-  model.side_ = side;
-  model.shape_ = shape;
-  model.influences_ = std::move(glove.influences);
-  model.triangles_ = std::move(glove.triangles);
-  model.bind(std::move(glove.vertices), mesh.T_mesh_joint);
+HandModel::HandModel(Side side, HandShape shape, GlovedMesh glove, std::span<const Eigen::Isometry3d> T_hand_joint)
+    : side_(side),
+      shape_(std::move(shape)),
+      influences_(std::move(glove.influences)),
+      triangles_(std::move(glove.triangles)) {
+  bind(std::move(glove.vertices), T_hand_joint);
   if (side == Side::left)
-    for (Triangle& t : model.triangles_) std::swap(t.vertices[1], t.vertices[2]);
-  return model;
+    for (Triangle& t : triangles_) std::swap(t.vertices[1], t.vertices[2]);
+}
+
+HandModel HandModel::load(const std::string& mesh_path, Side side, const HandShape& shape) {
+  const RiggedMesh mesh = shaped_mesh(mesh_path, shape);
+  std::vector<PatchScores> scores = patch_scores(mesh, shape.patch_border_shift);
+  add_votes(scores, shape.patch_votes);
+  return {side, shape, cut_patches(mesh, scores), mesh.T_mesh_joint};
+}
+
+HandModel HandModel::load_plain(const std::string& mesh_path, Side side, const HandShape& shape) {
+  const RiggedMesh mesh = shaped_mesh(mesh_path, shape);
+  GlovedMesh plain{mesh.vertices, mesh.influences, {}};
+  for (const auto& vertices : mesh.triangles) plain.triangles.push_back({vertices, patch_labels()[0], 0});
+  return {side, shape, std::move(plain), mesh.T_mesh_joint};
 }
 
 HandModel HandModel::stretched(const HandSizes& factors) const {
   RiggedMesh mesh{bind_vertices_, influences_, {}, {}};
   for (const Eigen::Isometry3d& T : T_joint_bind_) mesh.T_mesh_joint.push_back(T.inverse());
-  mesh = in_hand_frame(reshaped(mesh, {factors, 0}));
+  mesh = in_hand_frame(reshaped(mesh, {.sizes = factors}));
   HandModel model = *this;
   for (int i = 0; i < kSizeCount; ++i) model.shape_.sizes[i] *= factors[i];
   model.bind(std::move(mesh.vertices), mesh.T_mesh_joint);

@@ -27,6 +27,8 @@ class HandModel {
   /// Loads generic-hand/right.glb of npm `@webxr-input-profiles/assets` 1.0.20.
   /// Throws: Error if it is missing or its checksum differs.
   static HandModel load(const std::string& mesh_path, Side side = Side::right, const HandShape& shape = {});
+  /// The same in one color, with the vertices and triangles of the mesh.
+  static HandModel load_plain(const std::string& mesh_path, Side side, const HandShape& shape);
 
   /// This hand with sizes times `factors`. Patches keep their places on the skin, unlike in `load`.
   HandModel stretched(const HandSizes& factors) const;
@@ -43,6 +45,7 @@ class HandModel {
   const std::string& hash() const { return hash_; }
 
  private:
+  HandModel(Side side, HandShape shape, GlovedMesh glove, std::span<const Eigen::Isometry3d> T_hand_joint);
   void bind(std::vector<Eigen::Vector3d> vertices, std::span<const Eigen::Isometry3d> T_hand_joint);
   std::string make_hash(const JointPoses& T_hand_joint) const;
 

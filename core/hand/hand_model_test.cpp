@@ -59,12 +59,19 @@ TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
   }
 }
 
-/// Sizes that vary by 8%, and any shift that `calibrate hand` can find.
+/// Sizes that vary by 8%, and any shift, heights and votes that a hand's file can hold.
 HandShape drawn_shape(uint64_t seed) {
   RandomStream random(seed, "shape", 0, "sizes");
   HandShape shape;
   for (double& size : shape.sizes) size = std::clamp(1 + 0.08 * random.normal(), 0.5, 1.6);
   shape.patch_border_shift = random.uniform(-kMostBorderShift, kMostBorderShift);
+  for (uint32_t v = 0; v < kRiggedMeshVertices; ++v) {
+    shape.heights.push_back(random.uniform(-kMostHeight, kMostHeight));
+    // Few, so that patches have as many at one vertex.
+    for (int vote = 0; vote < 3; ++vote)
+      shape.patch_votes.push_back(
+          {v, static_cast<uint8_t>(random.index(kPatchCount)), static_cast<int>(1 + random.index(2))});
+  }
   return shape;
 }
 

@@ -116,6 +116,10 @@ RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape) {
     result.vertices[v] = shape.sizes[kScale] * p;
   }
   for (Eigen::Isometry3d& T : result.T_mesh_joint) T.translation() *= shape.sizes[kScale];
+  if (!shape.heights.empty()) {
+    const std::vector<Eigen::Vector3d> normals = vertex_normals(result);
+    for (size_t v = 0; v < result.vertices.size(); ++v) result.vertices[v] += shape.heights.at(v) * normals[v];
+  }
   return result;
 }
 

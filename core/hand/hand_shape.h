@@ -2,8 +2,9 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
-#include "core/hand/rigged_mesh.h"
+#include "core/hand/glove.h"
 
 namespace glovebench {
 
@@ -26,6 +27,7 @@ enum HandSize : int {
 using HandSizes = std::array<double, kSizeCount>;
 inline constexpr double kLeastHandSize = 0.3, kMostHandSize = 2;
 inline constexpr double kMostBorderShift = 0.006;  ///< m
+inline constexpr double kMostHeight = 0.01;        ///< m
 
 /// Names in files, such as "index_proximal_length".
 const std::array<std::string, kSizeCount>& hand_size_names();
@@ -37,13 +39,16 @@ struct HandShape {
     ones.fill(1);
     return ones;
   }();
-  double patch_border_shift = 0;  ///< towards the fingertips, m, up to kMostBorderShift either way
+  double patch_border_shift = 0;  ///< subject 2's, towards the fingertips, m, up to kMostBorderShift either way
+  /// Of each vertex of the mesh along its normal, m, up to kMostHeight either way. Empty: all 0.
+  std::vector<double> heights = {};
+  std::vector<PatchVotes> patch_votes = {};
 };
 
 /// Subject 2 (render/README.md).
 HandShape second_subject();
 
-/// Applies the sizes, not `patch_border_shift`. `mesh`: hand frame, bind pose, with forearm.
+/// Applies sizes and heights, not what moves the patches. `mesh`: hand frame, bind pose, with forearm.
 RiggedMesh reshaped(const RiggedMesh& mesh, const HandShape& shape);
 
 }  // namespace glovebench

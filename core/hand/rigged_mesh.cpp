@@ -207,4 +207,16 @@ RiggedMesh with_forearm(const RiggedMesh& hand, double length) {
   return mesh;
 }
 
+std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh) {
+  std::vector<Eigen::Vector3d> normals(mesh.vertices.size(), Eigen::Vector3d::Zero());
+  for (const auto& t : mesh.triangles) {
+    const Eigen::Vector3d normal =
+        (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    for (const uint32_t v : t) normals[v] += normal;
+  }
+  for (Eigen::Vector3d& n : normals)
+    if (n.norm() > 0) n.normalize();
+  return normals;
+}
+
 }  // namespace glovebench

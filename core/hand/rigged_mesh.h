@@ -27,11 +27,16 @@ struct RiggedMesh {
 
 inline constexpr std::string_view kRiggedMeshHash = "1e3af8c1f6637a9241aa2102f28a11bb";
 
+/// Vertices of that mesh with its forearm.
+inline constexpr size_t kRiggedMeshVertices = 1260;
+
 /// Loads HandModel::load's file in its own frame. Welds vertices by position.
 /// Throws: Error as HandModel::load.
 RiggedMesh load_rigged_mesh(const std::string& path);
 
 /// Replaces the wrist's cap by a forearm of `length` m, blended over +-12 mm. `hand`: hand frame.
 RiggedMesh with_forearm(const RiggedMesh& hand, double length);
+
+std::vector<Eigen::Vector3d> vertex_normals(const RiggedMesh& mesh);
 
 }  // namespace glovebench

@@ -40,7 +40,7 @@ struct CalibrateHand {
     const calibration::HandFit fit = tbb::task_arena(workbench.config().threads).execute([&] {
       return fit_hand_shape(views, inputs.calibration.ir, mesh);
     });
-    write_file(common.output, hand_text(measured_hand(fit, mesh.side)));
+    write_file(common.output, reports::format_json(to_json(measured_hand(fit, mesh.side))));
     if (!report.empty()) write_file(report, reports::format_json(hand_report_json(fit, motion, from.source)));
     if (common.quiet) return;
     fmt::print("{}: a {} hand of {} frames\n\n{}", common.output, to_string(mesh.side), views.size(),
