@@ -138,36 +138,23 @@ class Fit {
     fit_.shape.patch_votes = votes_of(seen);
   }
 
-  /// Calls visit(distance from the surface, patch) for each point of a view that has a closest face; returns the
-  /// number of points without one.
-  template <typename Visit>
-  int for_each_point(const HandModel& model, size_t v, int max_points, const Visit& visit) const {
-    const PosedHand posed = model.pose(fit_.poses[v].posture);
-    SurfaceMatcher matcher(model, posed, subsample(views_[v].seen.points, max_points), {});
-    matcher.cull(fit_.poses[v].T_camera_hand);
-    matcher.match(fit_.poses[v].T_camera_hand);
-    int without_face = 0;
-    for (size_t i = 0; i < matcher.closest().size(); ++i) {
-      const ClosestPoint& closest = matcher.closest()[i];
-      if (closest.face < 0) {
-        ++without_face;
-        continue;
-      }
-      const Surface::Face& face = matcher.surface().faces(matcher.cloud()[i].label)[closest.face];
-      visit(static_cast<double>(closest.distance), model.triangles()[face.triangle].patch);
-    }
-    return without_face;
-  }
-
   /// Sets what each patch's points lie off; returns the mean of all, m.
   double look_at_patches() {
     const HandModel model = hand();
     std::vector<std::array<PatchFit, kPatchCount>> of_views(views_.size());
     for_each_view([&](size_t v) {
-      for_each_point(model, v, kResidualPoints, [&](double distance, int patch) {
-        ++of_views[v][patch].points;
-        of_views[v][patch].residual += distance;
-      });
+      const PosedHand posed = model.pose(fit_.poses[v].posture);
+      SurfaceMatcher matcher(model, posed, subsample(views_[v].seen.points, kResidualPoints), {});
+      matcher.cull(fit_.poses[v].T_camera_hand);
+      matcher.match(fit_.poses[v].T_camera_hand);
+      for (size_t i = 0; i < matcher.closest().size(); ++i) {
+        const ClosestPoint& closest = matcher.closest()[i];
+        if (closest.face < 0) continue;
+        const Surface::Face& face = matcher.surface().faces(matcher.cloud()[i].label)[closest.face];
+        PatchFit& patch = of_views[v][model.triangles()[face.triangle].patch];
+        ++patch.points;
+        patch.residual += static_cast<double>(closest.distance);
+      }
     });
     PatchFit all;
     for (int p = 0; p < kPatchCount; ++p) {
