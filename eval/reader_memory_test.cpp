@@ -169,7 +169,7 @@ std::vector<Reader> json_readers() {
        to_json(CommandLimits()).dump()},
       {"calibration", [=](auto& text) { calibration_from_text(text, w); },
        to_json(nominal_kinect_calibration()).dump()},
-      {"hand", [=](auto& text) { parse_hand(text, w); }, hand_text(MeasuredHand{.shape = {}, .views = 1})},
+      {"hand", [=](auto& text) { parse_hand(text, w); }, to_json(MeasuredHand{.shape = {}, .views = 1}).dump()},
       {"glove colors", [=](auto& text) { calibration::parse_glove_colors(text, w); }, corpus("glove_colors/ten")},
       {"trajectory", [=](auto& text) { motion::parse_trajectory(text, w); }, canonical_text(small_trajectory())},
       {"posture set", [=](auto& text) { motion::parse_postures_json(text, w); },
