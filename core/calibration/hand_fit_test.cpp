@@ -98,6 +98,9 @@ TEST(HandFitLong, leaves_the_hand_of_the_mesh_as_it_is) {
   for (int size = 0; size < kSizeCount; ++size)
     EXPECT_NEAR(fit.shape.sizes[size], 1, 0.03) << hand_size_names()[size];
   EXPECT_NEAR(fit.shape.sizes[kScale], 1, 0.004);
+  double squares = 0;
+  for (const double height : fit.shape.heights) squares += height * height;
+  EXPECT_LT(1000 * std::sqrt(squares / kRiggedMeshVertices), 0.3);
 }
 
 TEST(HandFitLong, says_which_sizes_it_does_not_see) {

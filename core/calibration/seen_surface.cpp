@@ -11,7 +11,7 @@ namespace {
 constexpr int kPoints = 3000;        ///< of a view
 constexpr double kHeightCut_mm = 8;  ///< farther points have no weight
 constexpr float kPatchCut = 0.015F;  ///< m: farther from all faces of its color a point does not count
-constexpr double kSmooth = 10;       ///< points that weigh as much as an equal height of one neighbor
+constexpr double kSmooth = 10;       ///< points that weigh as much as one neighbor's height
 constexpr double kFlat = 1;          ///< points that weigh as much as a height of 0
 constexpr int kSweeps = 50;
 

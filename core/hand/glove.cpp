@@ -1,5 +1,6 @@
 #include "core/hand/glove.h"
 
+#include <limits>
 #include <map>
 
 #include "core/base/error.h"
@@ -17,8 +18,18 @@ constexpr double kWeightRamp = 0.015;     // m over which the weights change fro
 /// kMostBorderShift.
 constexpr double kGrowingWeight = 0.3;
 
-/// Points that weigh as much as the layout by weights.
+/// Points that weigh as much as the layout by weights, away from the cuff.
 constexpr double kOwnVotes = 20;
+
+/// The points of a vote and a little more, other for each vertex and patch: no three patches tie, where the cutter
+/// would find no polygons.
+double points_untied(const PatchVotes& votes) {
+  constexpr double kLittle = 1e-3;
+  uint32_t hash = (votes.vertex * kPatchCount + votes.patch + 1) * 2654435761U;
+  hash = (hash ^ hash >> 15) * 2246822519U;
+  hash ^= hash >> 13;
+  return votes.points + kLittle * hash / std::numeric_limits<uint32_t>::max();
+}
 
 /// Joint whose weight makes a vertex part of the patch; finger segments and thenar only.
 constexpr std::array<int, 15> kSegmentJoint = {2, 3, 6, 7, 8, 11, 12, 13, 16, 17, 18, 21, 22, 23, 1};
@@ -282,11 +293,11 @@ std::vector<PatchScores> patch_scores(const RiggedMesh& mesh, double border_shif
 
 void add_votes(std::vector<PatchScores>& scores, std::span<const PatchVotes> votes) {
   std::vector<double> points(scores.size());
-  for (const PatchVotes& vote : votes) points.at(vote.vertex) += vote.points;
+  for (const PatchVotes& vote : votes) points.at(vote.vertex) += points_untied(vote);
   for (size_t v = 0; v < scores.size(); ++v)
     for (double& score : scores[v]) score *= kOwnVotes / (kOwnVotes + points[v]);
   for (const PatchVotes& vote : votes)
-    scores[vote.vertex][vote.patch] += vote.points / (kOwnVotes + points[vote.vertex]);
+    scores[vote.vertex][vote.patch] += points_untied(vote) / (kOwnVotes + points[vote.vertex]);
 }
 
 GlovedMesh cut_patches(const RiggedMesh& mesh, const std::vector<PatchScores>& scores) {

@@ -47,7 +47,8 @@ std::vector<PatchVotes> read_votes(const JsonCursor& json) {
     const JsonItems points = of_patch["points"].items(vertices.size());
     int64_t next = 0;
     for (size_t i = 0; i < vertices.size(); ++i) {
-      const int64_t vertex = vertices[i].integer(next, kRiggedMeshVertices - 1);
+      const int64_t vertex = vertices[i].integer(0, kRiggedMeshVertices - 1);
+      if (vertex < next) vertices[i].fail("vertices in ascending order");
       votes.push_back({static_cast<uint32_t>(vertex), patch, static_cast<int>(points[i].integer(1, kMostVotes))});
       next = vertex + 1;
     }

@@ -59,7 +59,7 @@ TEST(HandModel, is_closed_after_cutting_for_both_sides_and_subjects) {
   }
 }
 
-/// Sizes that vary by 8%, and any shift, heights and votes that a hand's file can hold.
+/// Sizes that vary by 8%, any shift and heights, few votes.
 HandShape drawn_shape(uint64_t seed) {
   RandomStream random(seed, "shape", 0, "sizes");
   HandShape shape;
@@ -67,7 +67,6 @@ HandShape drawn_shape(uint64_t seed) {
   shape.patch_border_shift = random.uniform(-kMostBorderShift, kMostBorderShift);
   for (uint32_t v = 0; v < kRiggedMeshVertices; ++v) {
     shape.heights.push_back(random.uniform(-kMostHeight, kMostHeight));
-    // Few, so that patches have as many at one vertex.
     for (int vote = 0; vote < 3; ++vote)
       shape.patch_votes.push_back(
           {v, static_cast<uint8_t>(random.index(kPatchCount)), static_cast<int>(1 + random.index(2))});
@@ -78,6 +77,17 @@ HandShape drawn_shape(uint64_t seed) {
 TEST(HandModel, is_closed_whatever_its_sizes_and_borders) {
   for (uint64_t seed = 1; seed <= 40; ++seed)
     expect_closed(HandModel::load(build_paths::hand_mesh(), Side::right, drawn_shape(seed)));
+}
+
+TEST(HandModel, is_closed_where_patches_have_as_many_votes) {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(seed, "shape", 0, "votes");
+    HandShape shape;
+    for (const uint8_t patch : {kThumbProximal, kThumbDistal, kIndexProximal})
+      for (uint32_t v = 0; v < kRiggedMeshVertices; ++v)
+        shape.patch_votes.push_back({v, patch, 40 * static_cast<int>(1 + random.index(7))});
+    expect_closed(HandModel::load(build_paths::hand_mesh(), Side::right, shape));
+  }
 }
 
 /// How many parts a patch has that share no vertex.

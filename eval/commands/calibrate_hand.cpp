@@ -65,8 +65,8 @@ struct CalibrateHand {
 void add_calibrate_hand(Command calibrate) {
   const Command command = calibrate.subcommand(
       "hand",
-      "Fit the tracker's hand to a person, for --hand: overall size, lengths and widths of segments.\n"
-      "Record about 10 s in which the hand opens, closes and turns (core/calibration/README.md).");
+      "Fit the tracker's hand to a person, for --hand: sizes, surface, pattern of the glove.\n"
+      "Record about 10 s in which the hand opens, closes, bends and turns over (core/calibration/README.md).");
   const auto state = std::make_shared<CalibrateHand>();
   state->from.add(command, "a hand that moves");
   state->common.add_output(command, "hand to write, for --hand (*.json)").required();
