@@ -44,6 +44,18 @@ SizeVector spreads() {
   return spread;
 }
 
+/// A surface that is seen from one side alone cannot be told from a hand that lies elsewhere.
+bool show_both_sides(std::span<const TrackedView> views) {
+  constexpr double kFacing = 0.3, kShare = 0.1;
+  double palm = 0, back = 0;
+  for (const TrackedView& view : views) {
+    const double dorsal = view_direction(view.pose).y();
+    palm += dorsal < -kFacing;
+    back += dorsal > kFacing;
+  }
+  return std::min(palm, back) > kShare * static_cast<double>(views.size());
+}
+
 class Fit {
  public:
   Fit(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh)
@@ -134,7 +146,7 @@ class Fit {
     for_each_view([&](size_t v) { of_views[v] = seen_surface(both, views_[v], fit_.poses[v]); });
     SeenSurface seen = std::move(of_views.front());
     for (size_t v = 1; v < of_views.size(); ++v) seen += of_views[v];
-    fit_.shape.heights = heights_of(seen, both.plain, fit_.shape.heights);
+    if (show_both_sides(views_)) fit_.shape.heights = heights_of(seen, both.plain, fit_.shape.heights);
     fit_.shape.patch_votes = votes_of(seen);
   }
 

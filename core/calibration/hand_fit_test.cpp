@@ -19,7 +19,7 @@ constexpr int kViews = 16;
 
 /// A hand that closes, opens and turns before an ideal camera. The fit begins beside the truth, as far as a hand of
 /// other sizes leads the tracker.
-std::vector<TrackedView> filmed(const HandModel& hand) {
+std::vector<TrackedView> filmed(const HandModel& hand, double turn = 1.2) {
   std::vector<TrackedView> views;
   render::LabelRenderer renderer;
   for (int v = 0; v < kViews; ++v) {
@@ -28,7 +28,7 @@ std::vector<TrackedView> filmed(const HandModel& hand) {
     for (double& angle : posture) angle += random.uniform(-0.1, 0.1);
     posture = clamp_to_limits(posture);
     const Eigen::Isometry3d T =
-        test_pose({0.01 * (v % 3), 0.03, 0.62}, {0.2 + 0.3 * std::sin(0.9 * v), 1.2 * std::sin(0.7 * v), 0.1});
+        test_pose({0.01 * (v % 3), 0.03, 0.62}, {0.2 + 0.3 * std::sin(0.9 * v), turn * std::sin(0.7 * v), 0.1});
     const HandImages images = renderer.render_ids(hand, hand.pose(posture), kKinect, T);
     TrackedView& view = views.emplace_back();
     view.timestamp_us = 66'667 * v;
@@ -41,9 +41,9 @@ std::vector<TrackedView> filmed(const HandModel& hand) {
   return views;
 }
 
-HandFit fit_of(const HandShape& shape) {
+HandFit fit_of(const HandShape& shape, double turn = 1.2) {
   const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, shape);
-  return fit_hand_shape(filmed(hand), kKinect, {build_paths::hand_mesh(), Side::right});
+  return fit_hand_shape(filmed(hand, turn), kKinect, {build_paths::hand_mesh(), Side::right});
 }
 
 double worst_seen_percent(const HandFit& fit, const HandShape& truth, int first, int count) {
@@ -76,7 +76,8 @@ TEST(HandFitLong, finds_a_surface_that_no_sizes_make) {
     const double square = (p.head<1>().squaredNorm() + p.tail<1>().squaredNorm()) / 0.015F / 0.015F;
     truth.heights.push_back(p.y() > 0 ? 0.004 * std::exp(-square) : 0);
   }
-  const HandFit fit = fit_of(truth);
+  EXPECT_TRUE(fit_of(truth).shape.heights.empty()) << "one side alone was seen";
+  const HandFit fit = fit_of(truth, 3);
   double at_the_bump = 0, elsewhere = 0, bump_count = 0, other_count = 0;
   for (size_t v = 0; v < truth.heights.size(); ++v) {
     const double height_mm = 1000 * fit.shape.heights[v];
@@ -90,11 +91,11 @@ TEST(HandFitLong, finds_a_surface_that_no_sizes_make) {
   }
   EXPECT_NEAR(at_the_bump / bump_count, 3, 1);
   EXPECT_LT(elsewhere / other_count, 0.5);
-  EXPECT_LT(fit.residual, 0.5 * fit.residual_before);
+  EXPECT_LT(fit.residual, 0.6 * fit.residual_before);
 }
 
 TEST(HandFitLong, leaves_the_hand_of_the_mesh_as_it_is) {
-  const HandFit fit = fit_of({});
+  const HandFit fit = fit_of({}, 3);
   for (int size = 0; size < kSizeCount; ++size)
     EXPECT_NEAR(fit.shape.sizes[size], 1, 0.03) << hand_size_names()[size];
   EXPECT_NEAR(fit.shape.sizes[kScale], 1, 0.004);

@@ -29,12 +29,11 @@ double range_of(std::vector<double> values) {
   return values[values.size() - 1 - cut] - values[cut];
 }
 
-/// From the hand to the camera, hand frame.
+}  // namespace
+
 Eigen::Vector3d view_direction(const ArticulatedPose& pose) {
   return -(pose.T_camera_hand.linear().transpose() * pose.T_camera_hand.translation()).normalized();
 }
-
-}  // namespace
 
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result,
                                    const MethodInputs& inputs) {

@@ -19,6 +19,9 @@ struct TrackedView {
 /// Empty if the hand was lost.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
+/// From the hand to the camera, hand frame.
+Eigen::Vector3d view_direction(const ArticulatedPose& pose);
+
 struct ShownMotion {
   int views = 0;
   double seconds = 0;                ///< first to last view
