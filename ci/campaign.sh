@@ -21,7 +21,8 @@ rebuild() {
   use_compiler_cache "$source_folder"
   (
     cd "$source_folder"
-    quietly cmake --preset release -DGLOVEBENCH_TESTS=OFF -DGLOVEBENCH_BENCHMARKS=OFF "$@"
+    # Warnings are errors as in .ci/run, so that the compiler cache has its objects.
+    quietly cmake --preset release -DGLOVEBENCH_WERROR=ON -DGLOVEBENCH_TESTS=OFF -DGLOVEBENCH_BENCHMARKS=OFF "$@"
     quietly cmake --build --preset release --target glovebench
   )
 }

@@ -57,10 +57,11 @@ TEST_F(CalibrateHandLong, makes_a_hand_that_tracks_better) {
   record("moving", 40, 70, 40, 2);
   const ProgramRun run = calibrate("moving", {"--report", path("report.json")});
   expect_fine(run);
-  EXPECT_THAT(run.out, AllOf(HasSubstr("mine.json: a right hand of 40 frames"), HasSubstr("| scale | +")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("mine.json: a right hand of 40 frames"), HasSubstr("| scale | +"),
+                             HasSubstr("shows one side of the hand")));
   const MeasuredHand hand = load_hand(path("mine.json"));
   EXPECT_NEAR(hand.shape.sizes[kScale], 1.05, 0.02);
-  EXPECT_LT(hand.residual, 0.9 * hand.residual_before);
+  EXPECT_LT(hand.residual, 0.9 * hand.residual_before) << "poses fitted as often to the hand of the mesh";
   const json report = json::parse(read_file(path("report.json")));
   EXPECT_EQ(report.at("frames"), 40);
   EXPECT_EQ(report.at("sizes").size(), size_t{kSizeCount});

@@ -20,7 +20,7 @@ struct Round {
 };
 constexpr std::array<Round, 5> kRounds = {
     {{25, 16, 12, 12}, {16, 12, 8, 8}, {12, 8, 6, 6}, {12, 6, 4, 5}, {12, 6, 4, 4}}};
-/// The last round again and again: sizes and heights are found in turn, so that they settle slowly.
+/// The last round repeats: sizes and heights are found in turn and settle slowly.
 constexpr int kRoundCount = 28;
 const Round& round_at(int round) { return kRounds[std::min<size_t>(round, kRounds.size() - 1)]; }
 
@@ -44,7 +44,7 @@ SizeVector spreads() {
   return spread;
 }
 
-/// A surface that is seen from one side alone cannot be told from a hand that lies elsewhere.
+/// From one side alone, a raised surface looks like a nearer hand.
 bool show_both_sides(std::span<const TrackedView> views) {
   constexpr double kFacing = 0.3, kShare = 0.1;
   double palm = 0, back = 0;
@@ -59,7 +59,7 @@ bool show_both_sides(std::span<const TrackedView> views) {
 class Fit {
  public:
   Fit(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh)
-      : views_(views), camera_(camera), mesh_(mesh) {
+      : views_(views), camera_(camera), mesh_(mesh), finds_heights_(show_both_sides(views)) {
     for (const TrackedView& view : views) fit_.poses.push_back(view.pose);
   }
 
@@ -77,10 +77,10 @@ class Fit {
   }
 
  private:
-  /// The mean distance of the points with the sizes of the mesh, m.
+  /// The mean distance of the points from the mesh, with poses refined as often as `run` does, m.
   double residual_of_mesh() {
     refine_poses(kRounds.front());
-    for (const Round& round : kRounds) refine_poses(round);
+    for (int round = 0; round < kRoundCount; ++round) refine_poses(round_at(round));
     refine_poses(kRounds.back());
     return look_at_patches();
   }
@@ -146,7 +146,7 @@ class Fit {
     for_each_view([&](size_t v) { of_views[v] = seen_surface(both, views_[v], fit_.poses[v]); });
     SeenSurface seen = std::move(of_views.front());
     for (size_t v = 1; v < of_views.size(); ++v) seen += of_views[v];
-    if (show_both_sides(views_)) fit_.shape.heights = heights_of(seen, both.plain, fit_.shape.heights);
+    if (finds_heights_) fit_.shape.heights = heights_of(seen, both.plain, fit_.shape.heights);
     fit_.shape.patch_votes = votes_of(seen);
   }
 
@@ -186,6 +186,7 @@ class Fit {
   std::span<const TrackedView> views_;
   const PinholeCamera& camera_;
   const HandMesh& mesh_;
+  bool finds_heights_;
   HandFit fit_;
 };
 

@@ -21,7 +21,7 @@ struct PatchFit {
 
 struct HandFit {
   HandShape shape;
-  HandSizes deviation{};                ///< standard deviations
+  HandSizes deviation{};                ///< standard deviations, if the heights are right
   std::array<bool, kSizeCount> seen{};  ///< the recording tells more than the prior
   std::vector<ArticulatedPose> poses;   ///< one per view
   double residual_before = 0,
@@ -29,9 +29,10 @@ struct HandFit {
   std::array<PatchFit, kPatchCount> patches{};
 };
 
-/// Fits a hand's shape, with pose and posture in each view. Each round refines the poses, takes a Gauss-Newton step
-/// of all sizes, then moves surface and patches to the points. What the views do not show stays near the mesh. Uses
-/// the caller's TBB arena. Threads do not change results.
+/// Fits a hand's shape, with pose and posture in each view. Each round refines the poses and takes a Gauss-Newton
+/// step of all sizes. From the second round on, patches and (if the views show both sides) heights move to the
+/// points. What the views do not show stays near the mesh. Uses the caller's TBB arena. Threads do not change
+/// results.
 HandFit fit_hand_shape(std::span<const TrackedView> views, const PinholeCamera& camera, const HandMesh& mesh);
 
 }  // namespace glovebench::calibration

@@ -58,6 +58,8 @@ std::vector<std::string> hand_warnings(const HandFit& fit, const ShownMotion& mo
   if (const auto unseen = unseen_sizes(fit); !unseen.empty())
     warnings.push_back(fmt::format("the recording does not tell these sizes, which stay near those of the mesh: {}",
                                    fmt::join(unseen, ", ")));
+  if (fit.shape.heights.empty())
+    warnings.push_back("the recording shows one side of the hand: sizes and patches are fitted, heights are not");
   for (size_t finger = 0; finger < motion.bend_deg.size(); ++finger)
     if (motion.bend_deg[finger] < kStiff_deg)
       warnings.push_back(

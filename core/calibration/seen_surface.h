@@ -6,7 +6,7 @@
 
 namespace glovebench::calibration {
 
-/// What points say of the surface around each vertex of the mesh.
+/// Sums over the points around each vertex of the mesh.
 struct SeenSurface {
   explicit SeenSurface(size_t vertices) : height(vertices), weight(vertices), votes(vertices) {}
   SeenSurface& operator+=(const SeenSurface& other);
@@ -25,7 +25,7 @@ struct HandAndMesh {
 /// A point belongs to the nearest face of any color, and to the patch of the nearest face of its color.
 SeenSurface seen_surface(const HandAndMesh& hand, const TrackedView& view, const ArticulatedPose& pose);
 
-/// The heights to which the points pull: smooth, and 0 where no points are near. `before`: those of `plain`, m.
+/// Smooth heights that fit the points best, near 0 where no points are. `before`: the heights of `plain`, m.
 std::vector<double> heights_of(const SeenSurface& seen, const HandModel& plain, std::vector<double> before);
 
 std::vector<PatchVotes> votes_of(const SeenSurface& seen);

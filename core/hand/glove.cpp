@@ -21,8 +21,8 @@ constexpr double kGrowingWeight = 0.3;
 /// Points that weigh as much as the layout by weights, away from the cuff.
 constexpr double kOwnVotes = 20;
 
-/// The points of a vote and a little more, other for each vertex and patch: no three patches tie, where the cutter
-/// would find no polygons.
+/// The votes plus a small fraction that differs between vertices and patches. Without it three patches could tie,
+/// and one of them would get a region without area.
 double points_untied(const PatchVotes& votes) {
   constexpr double kLittle = 1e-3;
   uint32_t hash = (votes.vertex * kPatchCount + votes.patch + 1) * 2654435761U;

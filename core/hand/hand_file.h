@@ -13,7 +13,7 @@ namespace glovebench {
 struct MeasuredHand {
   Side side = Side::right;
   HandShape shape;
-  HandSizes deviation{};                ///< standard deviations
+  HandSizes deviation{};                ///< standard deviations, if the heights are right
   std::array<bool, kSizeCount> seen{};  ///< false: near the mesh's
   int views = 0;                        ///< fitted frames
   double residual_before = 0;           ///< mean distance of points from mesh, m

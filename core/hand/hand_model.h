@@ -30,7 +30,8 @@ class HandModel {
   /// The same in one color, with the vertices and triangles of the mesh.
   static HandModel load_plain(const std::string& mesh_path, Side side, const HandShape& shape);
 
-  /// This hand with sizes times `factors`. Patches keep their places on the skin, unlike in `load`.
+  /// This hand with sizes times `factors`. Unlike in `load`, patches keep their places on the skin, and heights
+  /// stretch with it.
   HandModel stretched(const HandSizes& factors) const;
 
   PosedHand pose(const Posture& posture) const;

@@ -40,7 +40,7 @@ struct HandShape {
     return ones;
   }();
   double patch_border_shift = 0;  ///< subject 2's, towards the fingertips, m, up to kMostBorderShift either way
-  /// Of each vertex of the mesh along its normal, m, up to kMostHeight either way. Empty: all 0.
+  /// Height of each vertex of the mesh along its normal, m, from -kMostHeight to kMostHeight. Empty: all 0.
   std::vector<double> heights = {};
   std::vector<PatchVotes> patch_votes = {};
 };
