@@ -61,7 +61,15 @@ const int stages_registered = [] {
       });
   add_stage(
       "majority_filter", [](const BenchFrame& frame) { return majority_filter(frame.trace.labels); },
-      [](const BenchFrame& frame, const LabelImage& answer) { return answer.size() == frame.trace.labels.size(); });
+      [](const BenchFrame& frame, const LabelImage& answer) {
+        return answer == majority_filter(frame.trace.labels);
+      });
+  add_stage(
+      "surface_majority",
+      [](const BenchFrame& frame) { return surface_majority(frame.trace.labels, frame.trace.depth); },
+      [](const BenchFrame& frame, const LabelImage& answer) {
+        return answer == surface_majority(frame.trace.labels, frame.trace.depth);
+      });
   add_stage(
       "cloud",
       [](const BenchFrame& frame) {

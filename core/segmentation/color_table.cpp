@@ -60,6 +60,25 @@ bool eight_are_uniform(const uint8_t* corner, int stride) {
   return difference == 0;
 }
 
+/// Gives each pixel `answer(u, v, corner, stride)`, which must be the pixel's own label if all neighbors have it.
+template <typename Answer>
+LabelImage filter_3x3(const LabelImage& labels, const Answer& answer) {
+  const PaddedLabels padded(labels);
+  LabelImage filtered = labels;
+  for (int v = 0; v < labels.height(); ++v) {
+    const uint8_t* row = padded.row(v);
+    for (int u = 0; u < labels.width(); ++u) {
+      // Most of an image is uniform; eight such pixels cost nine reads.
+      if (u + 8 <= labels.width() && eight_are_uniform(row + u, padded.stride())) {
+        u += 7;
+        continue;
+      }
+      filtered(u, v) = answer(u, v, row + u, padded.stride());
+    }
+  }
+  return filtered;
+}
+
 uint8_t majority(const uint8_t* corner, int stride) {
   std::array<uint8_t, kOutside + 1> votes{};
   for (int row = 0; row < 3; ++row)
@@ -170,29 +189,14 @@ LabelImage segment(const RegisteredImage& mapped, const ColorTable& table) { ret
 LabelImage segment(const ColorImage& color, const ColorTable& table) { return labels_of(color, table); }
 
 LabelImage majority_filter(const LabelImage& labels) {
-  const PaddedLabels padded(labels);
-  LabelImage filtered = labels;
-  for (int v = 0; v < labels.height(); ++v) {
-    const uint8_t* row = padded.row(v);
-    for (int u = 0; u < labels.width(); ++u) {
-      // Most of an image is uniform; eight such pixels cost nine reads.
-      if (u + 8 <= labels.width() && eight_are_uniform(row + u, padded.stride())) {
-        u += 7;
-        continue;
-      }
-      filtered(u, v) = majority(row + u, padded.stride());
-    }
-  }
-  return filtered;
+  return filter_3x3(labels, [](int, int, const uint8_t* corner, int stride) { return majority(corner, stride); });
 }
 
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step) {
   check(labels.width() == depth.width() && labels.height() == depth.height(), "labels and depth are of one camera");
-  LabelImage filtered = labels;
-  for (int v = 0; v < labels.height(); ++v)
-    for (int u = 0; u < labels.width(); ++u)
-      if (depth(u, v) > 0) filtered(u, v) = winner(votes_at(labels, depth, u, v, depth_step), labels(u, v));
-  return filtered;
+  return filter_3x3(labels, [&](int u, int v, const uint8_t*, int) {
+    return depth(u, v) > 0 ? winner(votes_at(labels, depth, u, v, depth_step), labels(u, v)) : labels(u, v);
+  });
 }
 
 }  // namespace glovebench

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/base/input_file.h"
@@ -232,6 +236,36 @@ TEST(SurfaceMajority, removes_a_speck_within_a_patch_and_grows_none_from_one_alo
   empty.labels(4, 4) = 8;
   EXPECT_EQ(surface_majority(empty.labels, empty.depth)(3, 3), 8) << "two vote";
   EXPECT_EQ(surface_majority(LabelImage(), DepthImage()).size(), 0U);
+}
+
+/// Votes counted one by one.
+uint8_t counted_surface_majority(const LabelImage& labels, const DepthImage& depth, int u, int v) {
+  std::array<int, kColorCount + 1> votes{};
+  for (int j = v - 1; j <= v + 1; ++j)
+    for (int i = u - 1; i <= u + 1; ++i)
+      if (labels.contains(i, j) && std::abs(double{depth(i, j)} - depth(u, v)) < 0.02) ++votes[labels(i, j)];
+  const uint8_t own = labels(u, v);
+  if (depth(u, v) == 0 || (own == 0 && std::accumulate(votes.begin() + 1, votes.end(), 0) < 2)) return own;
+  const auto most = std::max_element(votes.begin() + 1, votes.end());
+  return own != 0 && votes[own] == *most ? own : static_cast<uint8_t>(most - votes.begin());
+}
+
+TEST(SurfaceMajority, counts_votes_like_the_plain_way) {
+  for (const int width : {1, 7, 8, 9, 37}) {
+    LabelImage labels(width, 23);
+    DepthImage depth(width, 23);
+    RandomStream random(5, "surface majority", width, "votes");
+    for (int v = 0; v < labels.height(); ++v)
+      for (int u = 0; u < labels.width(); ++u) {
+        const bool is_mixed = u > 18 && random.uniform() < 0.3;
+        labels(u, v) = static_cast<uint8_t>(is_mixed ? random.index(11) : (u / 14 + v / 9) % 4);
+        depth(u, v) = random.uniform() < 0.1 ? 0 : 0.7F + 0.01F * static_cast<float>(random.index(4));
+      }
+    const LabelImage filtered = surface_majority(labels, depth);
+    for (int v = 0; v < labels.height(); ++v)
+      for (int u = 0; u < labels.width(); ++u)
+        EXPECT_EQ(filtered(u, v), counted_surface_majority(labels, depth, u, v)) << width << ": " << u << ", " << v;
+  }
 }
 
 TEST(SurfaceMajority, never_takes_a_label_away_and_never_one_that_is_not_near) {
