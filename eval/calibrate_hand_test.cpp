@@ -74,6 +74,11 @@ TEST_F(CalibrateHandLong, makes_a_hand_that_tracks_better) {
     return results.at("experiments").at(0).at("aggregates").at("position_error_mm").at("mean").get<double>();
   };
   EXPECT_LT(position_mm("with", {"--hand", path("mine.json")}), 0.4 * position_mm("without", {}));
+  EXPECT_THAT(run_glovebench({"compare", path("without"), path("with")}).err,
+              HasSubstr("glovebench compare --across hand"));
+  const ProgramRun compared = run_glovebench({"compare", path("without"), path("with"), "--across", "hand"});
+  EXPECT_THAT(compared.out, AllOf(HasSubstr("inputs.hand_model"), HasSubstr("better")));
+  EXPECT_THAT(run_glovebench({"table", path("without"), path("with")}).out, HasSubstr("inputs.hand_model"));
   // The picture of a frame is of the run's hand: another one had another database.
   run_trajectory("other.json", "paper", {"--hand", path("mine.json")});
   expect_fine(run_glovebench({"explain", path("paper"), "1", "--trajectory", path("other.json")}));

@@ -93,6 +93,7 @@ std::vector<std::vector<MeasuredRun>> run_settings(Workbench& workbench, const P
 reports::SettingsTable settings_table(const std::vector<std::string>& folders, reports::PairingOptions pairing,
                                       const reports::CompareConfig& config) {
   if (pairing.metrics.empty()) pairing.metrics = reports::headline_metrics();
+  pairing.across.push_back(reports::Across::hand);
   std::vector<reports::SettingRun> runs;
   std::set<std::string> processors;
   for (const std::string& folder : folders) {

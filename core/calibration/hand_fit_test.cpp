@@ -41,9 +41,9 @@ std::vector<TrackedView> filmed(const HandModel& hand, double turn = 1.2) {
   return views;
 }
 
-HandFit fit_of(const HandShape& shape, double turn = 1.2) {
-  const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, shape);
-  return fit_hand_shape(filmed(hand, turn), kKinect, {build_paths::hand_mesh(), Side::right});
+HandFit fit_of(const HandShape& shape, double turn = 1.2, Side side = Side::right) {
+  const HandModel hand = HandModel::load(build_paths::hand_mesh(), side, shape);
+  return fit_hand_shape(filmed(hand, turn), kKinect, {build_paths::hand_mesh(), side});
 }
 
 double worst_seen_percent(const HandFit& fit, const HandShape& truth, int first, int count) {
@@ -58,13 +58,54 @@ TEST(HandFitLong, finds_the_sizes_of_another_hand) {
   truth.sizes[kPalmBreadth] = 1.06;
   truth.sizes[kLittlePalmLength] = 0.96;
   truth.sizes[kSegmentWidths + 6] = 1.08;
-  const HandFit fit = fit_of(truth);
-  EXPECT_NEAR(fit.shape.sizes[kScale], 1.05, 0.01);
-  EXPECT_NEAR(fit.shape.sizes[kPalmBreadth], 1.06, 0.02);
-  EXPECT_NEAR(fit.shape.sizes[kLittlePalmLength], 0.96, 0.02);
-  EXPECT_LT(worst_seen_percent(fit, truth, kSegmentLengths, kSegmentCount), 5);
-  EXPECT_LT(worst_seen_percent(fit, truth, kSegmentWidths, kSegmentCount), 5);
-  EXPECT_LT(fit.residual, 0.3 * fit.residual_before);
+  for (const Side side : {Side::right, Side::left}) {
+    SCOPED_TRACE(to_string(side));
+    const HandFit fit = fit_of(truth, 1.2, side);
+    EXPECT_GT(std::ranges::count(fit.seen, true), 30);
+    EXPECT_NEAR(fit.shape.sizes[kScale], 1.05, 0.01);
+    EXPECT_NEAR(fit.shape.sizes[kPalmBreadth], 1.06, 0.02);
+    EXPECT_NEAR(fit.shape.sizes[kLittlePalmLength], 0.96, 0.02);
+    EXPECT_LT(worst_seen_percent(fit, truth, kSegmentLengths, kSegmentCount), 5);
+    EXPECT_LT(worst_seen_percent(fit, truth, kSegmentWidths, kSegmentCount), 5);
+    EXPECT_LT(fit.residual, 0.3 * fit.residual_before);
+  }
+}
+
+/// The share of the hand's surface that has another patch than in `truth`, at rest.
+double other_patch_percent(const HandShape& shape, const HandShape& truth) {
+  struct Facet {
+    Eigen::Vector3f center;
+    float area;
+    uint8_t patch;
+  };
+  const auto facets_of = [](const HandShape& of) {
+    const HandModel hand = HandModel::load(build_paths::hand_mesh(), Side::right, of);
+    const PosedHand rest = hand.pose(hand.skeleton().bind_posture());
+    std::vector<Facet> facets;
+    for (const Triangle& triangle : hand.triangles()) {
+      const auto& [a, b, c] = triangle.vertices;
+      const Eigen::Vector3f &p = rest.vertices[a], &q = rest.vertices[b], &r = rest.vertices[c];
+      if (triangle.patch != kCuff) facets.push_back({(p + q + r) / 3, (q - p).cross(r - p).norm(), triangle.patch});
+    }
+    return facets;
+  };
+  const std::vector<Facet> facets = facets_of(shape);
+  double other = 0, all = 0;
+  for (const Facet& expected : facets_of(truth)) {
+    const auto nearest = std::ranges::min_element(
+        facets, {}, [&](const Facet& facet) { return (facet.center - expected.center).squaredNorm(); });
+    all += expected.area;
+    if (nearest->patch != expected.patch) other += expected.area;
+  }
+  return 100 * other / all;
+}
+
+TEST(HandFitLong, finds_where_the_patches_meet) {
+  HandShape truth;
+  truth.patch_border_shift = 0.005;
+  const double before = other_patch_percent({}, truth), after = other_patch_percent(fit_of(truth, 3).shape, truth);
+  EXPECT_GT(before, 5);
+  EXPECT_LT(after, 0.5 * before);
 }
 
 TEST(HandFitLong, finds_a_surface_that_no_sizes_make) {

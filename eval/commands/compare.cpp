@@ -60,8 +60,8 @@ void add_compare(Command program) {
       "compare",
       "Compare two runs, frame by frame and seed by seed: what became better or worse, by how much, and is it "
       "real?\n"
-      "Exit code 3 if they are not comparable: of another protocol, truth, database, noise, subject, or of other "
-      "frames.");
+      "Exit code 3 if they are not comparable: of another protocol, truth, database, noise, subject, hand, or of "
+      "other frames.");
   const auto state = std::make_shared<Compare>();
   command.option("baseline", state->baseline_path, "folder of a run, or its results.json").required();
   command.option("candidate", state->candidate_path, "the same, of the run to judge").required();
@@ -75,7 +75,8 @@ void add_compare(Command program) {
                  "the runs have other noise seeds, as many: pair them in their order");
   command
       .option("--across", state->across,
-              "compare although these differ, and say how: noise, subject, frames (then those of both)")
+              "compare although these differ, and say how: noise, subject, frames (then those of both), "
+              "hand (and the databases that are built from it)")
       .one_of(all_names<reports::Across>())
       .repeated()
       .comma_separated();

@@ -48,19 +48,31 @@ void check_unique(const NamedResult& result, const PairingOptions& options) {
   }
 }
 
+constexpr std::string_view kAcrossHint = " (they differ in {}: `glovebench compare --across {}`)";
+
 /// A missing hash cannot be compared.
 void check_hash(const NamedResult& baseline, const NamedResult& candidate, const std::string& name,
-                std::map<std::string, std::string> InputHashes::*hashes, const std::string& field) {
+                std::map<std::string, std::string> InputHashes::*hashes, const std::string& field,
+                const std::string& hint = "") {
   const auto& found = candidate.result.inputs.*hashes;
   const auto& expected = baseline.result.inputs.*hashes;
   if (!expected.contains(name)) throw Incomparable(baseline.name, field + name, "nothing", "a hash");
   if (!found.contains(name)) throw Incomparable(candidate.name, field + name, "nothing", expected.at(name));
-  check_equal(candidate.name, field + name, found.at(name), expected.at(name));
+  if (found.at(name) != expected.at(name))
+    throw Incomparable(candidate.name, field + name, found.at(name), expected.at(name) + hint);
 }
 
-void check_inputs(const NamedResult& baseline, const NamedResult& candidate, const ExperimentKey& key) {
+bool differ_in_hand(const RunResult& baseline, const RunResult& candidate) {
+  return baseline.inputs.hand_model != candidate.inputs.hand_model;
+}
+
+void check_inputs(const NamedResult& baseline, const NamedResult& candidate, const ExperimentKey& key,
+                  const PairingOptions& options) {
   check_hash(baseline, candidate, truth_name(key), &InputHashes::truths, "inputs.truths.");
-  check_hash(baseline, candidate, key.database, &InputHashes::databases, "inputs.databases.");
+  const bool other_hand = differ_in_hand(baseline.result, candidate.result);
+  if (other_hand && options.is_across(Across::hand)) return;
+  check_hash(baseline, candidate, key.database, &InputHashes::databases, "inputs.databases.",
+             other_hand ? fmt::format(kAcrossHint, "hand", "hand") : "");
 }
 
 std::string seeds_of(const ExperimentResult& experiment) {
@@ -129,8 +141,7 @@ std::string across_hint(const ExperimentKey& missing, const RunResult& baseline,
   if (other && other->key.noise != missing.noise) differing.push_back(to_string(Across::noise));
   if (other && other->key.subject != missing.subject) differing.push_back(to_string(Across::subject));
   if (differing.empty()) return "";
-  return fmt::format(" (they differ in {}: `glovebench compare --across {}`)", fmt::join(differing, " and "),
-                     fmt::join(differing, ","));
+  return fmt::format(kAcrossHint, fmt::join(differing, " and "), fmt::join(differing, ","));
 }
 
 /// The first of the baseline that the candidate lacks.
@@ -201,15 +212,17 @@ std::string frames_text(const ExperimentResult& experiment) {
   return fmt::format("{} to {}", frames.front().frame, frames.back().frame);
 }
 
-/// What the experiments differ in, each difference once.
-std::vector<ConfigurationChange> across_changes(const Pairing& pairing) {
+/// What the runs and their experiments differ in, each difference once.
+std::vector<ConfigurationChange> across_changes(const RunResult& baseline, const RunResult& candidate,
+                                                const Pairing& pairing) {
   std::vector<ConfigurationChange> changes;
-  const auto add = [&](const char* field, const std::string& baseline, const std::string& candidate) {
+  const auto add = [&](const char* field, const std::string& before, const std::string& after) {
     const bool is_known = std::ranges::any_of(changes, [&](const ConfigurationChange& known) {
-      return known.field == field && known.baseline == baseline && known.candidate == candidate;
+      return known.field == field && known.baseline == before && known.candidate == after;
     });
-    if (baseline != candidate && !is_known) changes.push_back({field, baseline, candidate});
+    if (before != after && !is_known) changes.push_back({field, before, after});
   };
+  add("inputs.hand_model", baseline.inputs.hand_model, candidate.inputs.hand_model);
   const auto noise = [](const ExperimentKey& key) {
     return fmt::format("{} x {}", key.noise.model, key.noise.factor);
   };
@@ -256,10 +269,11 @@ Pairing pair_results(const NamedResult& baseline, const NamedResult& candidate, 
     if (options.metrics.empty() || std::ranges::count(options.metrics, metric->key) > 0)
       pairing.metrics.push_back(metric);
   if (pairing.metrics.empty()) throw Incomparable(candidate.name, "metrics", "none to compare", "at least one");
-  for (const auto& [expected, found] : pairing.experiments) check_inputs(baseline, candidate, expected->key);
+  for (const auto& [expected, found] : pairing.experiments)
+    check_inputs(baseline, candidate, expected->key, options);
   for (const auto& [expected, found] : pairing.experiments)
     check_seeds(candidate.name, *found, *expected, options.other_seeds);
-  pairing.across = across_changes(pairing);
+  pairing.across = across_changes(baseline.result, candidate.result, pairing);
   if (options.is_across(Across::frames)) cut_to_shared_frames(pairing, candidate.name);
   for (const auto& [expected, found] : pairing.experiments) check_runs(candidate.name, *found, *expected);
   if (!options.partial && !pairing.only_in_baseline.empty()) refuse_missing(baseline, candidate, pairing);

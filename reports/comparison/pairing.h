@@ -18,15 +18,16 @@ struct NamedResult {
 };
 
 /// How compared experiments may differ.
-enum class Across { noise, subject, frames };
-constexpr auto names_of(Across) { return std::to_array<std::string_view>({"noise", "subject", "frames"}); }
+enum class Across { noise, subject, frames, hand };
+constexpr auto names_of(Across) { return std::to_array<std::string_view>({"noise", "subject", "frames", "hand"}); }
 
 struct PairingOptions {
   /// Pairs noise seeds in order; counts must be equal. Otherwise seeds must be equal.
   bool other_seeds = false;
   /// Compares shared experiments. Otherwise the candidate needs all of the baseline's.
   bool partial = false;
-  /// Otherwise noise, subject and frames must be equal. Across frames, compares shared frames.
+  /// Otherwise noise, subject, frames and database must be equal. Across frames, compares shared frames. Across
+  /// hand, the tracker's hands may differ, and the databases that are built from them.
   std::vector<Across> across = {};
   std::vector<std::string> metrics = {};  ///< gated, chosen beforehand; empty: all
 

@@ -208,6 +208,24 @@ TEST(Pairing, AcrossNoiseAndSubjectNamesWhatDiffers) {
   EXPECT_EQ(pairing.across[1].candidate, "3");
 }
 
+TEST(Pairing, AcrossHandTheDatabasesOfAnotherHandAreCompared) {
+  const NamedResult a = two_experiments("a");
+  NamedResult b = two_experiments("b");
+  b.result.inputs.databases["DB_open_power"] = "0b";
+  const std::string refused = "b: inputs.databases.DB_open_power: found 0b, expected 0a";
+  EXPECT_EQ(refusal(a, b, {.across = {Across::hand}}), refused) << "built otherwise from one hand";
+  b.result.inputs.hand_model = "another";
+  EXPECT_EQ(refusal(a, b), refused + " (they differ in hand: `glovebench compare --across hand`)");
+  const Pairing pairing = pair_results(a, b, {.across = {Across::hand}});
+  EXPECT_EQ(pairing.experiments.size(), 2U);
+  ASSERT_EQ(pairing.across.size(), 1U);
+  EXPECT_EQ(pairing.across[0].field, "inputs.hand_model");
+  EXPECT_EQ(pairing.across[0].baseline, a.result.inputs.hand_model);
+  EXPECT_EQ(pairing.across[0].candidate, "another");
+  b.result.inputs.truths["source/Tr4"] = "ee";
+  EXPECT_THAT(refusal(a, b, {.across = {Across::hand}}), HasSubstr("inputs.truths.source/Tr4"));
+}
+
 TEST(Pairing, AcrossNoiseEachExperimentHasOnePartner) {
   NamedResult b = two_experiments("b");
   b.result.experiments[1].key = b.result.experiments[0].key;

@@ -32,9 +32,10 @@ struct Compared {
   bool is_worse() const { return std::ranges::any_of(rows, stops); }
 };
 
-/// Of an older run, fields that it lacks are as in the paper.
+/// Of an older run, fields that it lacks are as in the paper. A person's hand is not.
 bool has_paper_configuration(const SettingRun& setting) {
   const nlohmann::json& configuration = setting.run.result.configuration;
+  if (configuration.contains("hand")) return false;
   const TrackerConfig paper = glovebench::profile("paper");
   try {
     const TrackerConfig own = config_from_json(configuration.at("tracker"), paper, setting.run.name);

@@ -40,6 +40,13 @@ std::vector<std::string> row_of(const SettingsTable& settings, const std::string
 
 const PairingOptions kHeadline = {.metrics = headline_metrics()};
 
+TEST(SettingsTable, APersonsHandIsNotThePapers) {
+  SettingRun with_hand = setting("paper", -0.5, 10);
+  with_hand.run.name = "with_hand";
+  with_hand.run.result.configuration["hand"] = {{"side", "right"}};
+  EXPECT_EQ(compare_settings({with_hand, setting("paper", 0, 10)}, kHeadline).reference, "paper");
+}
+
 TEST(SettingsTable, ComparesEachWithThePaperWhereverItStands) {
   const SettingsTable settings =
       compare_settings({setting("good", -0.5, 8), setting("paper", 0, 10), setting("bad", 0.5, 9.5)}, kHeadline);
