@@ -132,7 +132,7 @@ TEST(HandFitLong, finds_a_surface_that_no_sizes_make) {
   }
   EXPECT_NEAR(at_the_bump / bump_count, 3, 1);
   EXPECT_LT(elsewhere / other_count, 0.5);
-  EXPECT_LT(fit.residual, 0.6 * fit.residual_before);
+  EXPECT_LT(fit.residual, 0.6 * fit.residual_before) << "0.51: half of the views show no bump";
 }
 
 TEST(HandFitLong, leaves_the_hand_of_the_mesh_as_it_is) {

@@ -257,7 +257,7 @@ TEST(SurfaceMajority, counts_votes_like_the_plain_way) {
     RandomStream random(5, "surface majority", width, "votes");
     for (int v = 0; v < labels.height(); ++v)
       for (int u = 0; u < labels.width(); ++u) {
-        const bool is_mixed = u > 18 && random.uniform() < 0.3;
+        const bool is_mixed = u + v > 18 && random.uniform() < 0.3;
         labels(u, v) = static_cast<uint8_t>(is_mixed ? random.index(11) : (u / 14 + v / 9) % 4);
         depth(u, v) = random.uniform() < 0.1 ? 0 : 0.7F + 0.01F * static_cast<float>(random.index(4));
       }

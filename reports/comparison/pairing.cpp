@@ -62,14 +62,10 @@ void check_hash(const NamedResult& baseline, const NamedResult& candidate, const
     throw Incomparable(candidate.name, field + name, found.at(name), expected.at(name) + hint);
 }
 
-bool differ_in_hand(const RunResult& baseline, const RunResult& candidate) {
-  return baseline.inputs.hand_model != candidate.inputs.hand_model;
-}
-
 void check_inputs(const NamedResult& baseline, const NamedResult& candidate, const ExperimentKey& key,
                   const PairingOptions& options) {
   check_hash(baseline, candidate, truth_name(key), &InputHashes::truths, "inputs.truths.");
-  const bool other_hand = differ_in_hand(baseline.result, candidate.result);
+  const bool other_hand = baseline.result.inputs.hand_model != candidate.result.inputs.hand_model;
   if (other_hand && options.is_across(Across::hand)) return;
   check_hash(baseline, candidate, key.database, &InputHashes::databases, "inputs.databases.",
              other_hand ? fmt::format(kAcrossHint, "hand", "hand") : "");
@@ -212,7 +208,7 @@ std::string frames_text(const ExperimentResult& experiment) {
   return fmt::format("{} to {}", frames.front().frame, frames.back().frame);
 }
 
-/// What the runs and their experiments differ in, each difference once.
+/// The differences between the runs and between their experiments. None is listed twice.
 std::vector<ConfigurationChange> across_changes(const RunResult& baseline, const RunResult& candidate,
                                                 const Pairing& pairing) {
   std::vector<ConfigurationChange> changes;

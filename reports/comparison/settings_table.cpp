@@ -32,7 +32,7 @@ struct Compared {
   bool is_worse() const { return std::ranges::any_of(rows, stops); }
 };
 
-/// Of an older run, fields that it lacks are as in the paper. A person's hand is not.
+/// A field that an older run lacks has the paper's value. A run with a person's hand is not the paper's.
 bool has_paper_configuration(const SettingRun& setting) {
   const nlohmann::json& configuration = setting.run.result.configuration;
   if (configuration.contains("hand")) return false;
