@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <tuple>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/base/parse_json.h"
@@ -67,6 +68,8 @@ concept Optional = requires(T value) {
 };
 template <typename T>
 concept Vector = std::is_same_v<T, Posture> || std::is_same_v<T, Eigen::Vector3d>;
+template <typename T>
+concept Integer = std::is_integral_v<T> && !std::is_same_v<T, bool>;
 /// A list that the JSON library does not convert by itself.
 template <typename T>
 concept List = requires(T list) {
@@ -101,6 +104,15 @@ json to_row(const T& value) {
   }
 }
 
+/// The JSON library would convert any number, also one that does not fit.
+template <Integer T>
+T integer_of(const json& row) {
+  const bool fits = row.is_number_unsigned() ? std::in_range<T>(row.get<uint64_t>())
+                                             : row.is_number_integer() && std::in_range<T>(row.get<int64_t>());
+  if (!fits) throw json::other_error::create(501, "no integer of this size", &row);
+  return row.get<T>();
+}
+
 template <typename T>
 T from_row(const json& row) {
   if constexpr (Struct<T>) {
@@ -126,13 +138,15 @@ T from_row(const json& row) {
     return pose;
   } else if constexpr (std::is_same_v<T, Cell>) {
     if (row.is_string()) return row.get<std::string>();
-    if (row.is_number_integer()) return row.get<int64_t>();
+    if (row.is_number_integer()) return integer_of<int64_t>(row);
     if (row.is_number()) return row.get<double>();
     return {};
   } else if constexpr (List<T>) {
     T list;
     for (const json& each : row) list.push_back(from_row<typename T::value_type>(each));
     return list;
+  } else if constexpr (Integer<T>) {
+    return integer_of<T>(row);
   } else {
     return row.get<T>();
   }

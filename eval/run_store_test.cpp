@@ -124,6 +124,9 @@ TEST(RunBytes, WithAnUnknownStatusOrAFrameTooFewAreNone) {
   EXPECT_TRUE(is_read([](nlohmann::json&) {}));
   for (const nlohmann::json& status : {nlohmann::json(99), nlohmann::json(-1), nlohmann::json(0), nlohmann::json()})
     EXPECT_FALSE(is_read([&](nlohmann::json& run) { run["answers"][0][1] = status; })) << status;
+  // Where a count stands that is a double or does not fit.
+  for (const nlohmann::json& count : {nlohmann::json(1e246), nlohmann::json(1.0), nlohmann::json(int64_t{1} << 40)})
+    EXPECT_FALSE(is_read([&](nlohmann::json& run) { run["answers"][0][10] = count; })) << count;
   for (const char* list : {"answers", "seen", "frame_ms"})
     EXPECT_FALSE(is_read([&](nlohmann::json& run) { run[list].erase(size_t{1}); })) << list;
 }
