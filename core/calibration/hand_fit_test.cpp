@@ -7,6 +7,7 @@
 #include "core/database/test_database.h"
 #include "core/pose/test_alignment.h"
 #include "core/test_error.h"
+#include "core/tracker/test_scene.h"
 
 namespace glovebench::calibration {
 namespace {
@@ -178,6 +179,18 @@ TEST(HandViews, measure_how_a_hand_moves) {
   EXPECT_NEAR(motion.bend_deg[2], 0, 1e-9);
   EXPECT_NEAR(motion.turn_deg, degrees_from_radians(0.5), 0.1);
   EXPECT_EQ(motion_of({}).views, 0);
+}
+
+TEST(HandViews, are_of_whole_hands) {
+  const MethodInputs inputs{{},
+                            synthetic_calibration(),
+                            borrowed(render::test_hand()),
+                            borrowed(test_database()),
+                            borrowed(test_color_table())};
+  TrackResult result;
+  result.status = TrackStatus::tracked;
+  EXPECT_TRUE(view_of(shoot(render::test_pose({0, 0, 0.6})).frame, result, inputs));
+  EXPECT_FALSE(view_of(shoot(render::test_pose({0.32, 0, 0.6})).frame, result, inputs)) << "a followed part";
 }
 
 TEST(HandViews, ask_for_a_hand_that_moves_long_enough) {

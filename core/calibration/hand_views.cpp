@@ -38,10 +38,11 @@ Eigen::Vector3d view_direction(const ArticulatedPose& pose) {
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result,
                                    const MethodInputs& inputs) {
   if (result.status != TrackStatus::tracked) return {};
+  const Sighting seen = see_in_reach(frame, inputs.calibration, *inputs.table, inputs.config, unobserved);
+  if (seen.status != TrackStatus::tracked) return {};  // part of a hand
   TrackedView view;
   view.timestamp_us = frame.depth_timestamp_us;
   view.pose = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
-  const Sighting seen = see_in_reach(frame, inputs.calibration, *inputs.table, inputs.config, unobserved);
   view.seen.assign(seen, frame);
   return view;
 }
