@@ -39,7 +39,7 @@ std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& 
                                    const MethodInputs& inputs) {
   if (result.status != TrackStatus::tracked) return {};
   const Sighting seen = see_in_reach(frame, inputs.calibration, *inputs.table, inputs.config, unobserved);
-  if (seen.status != TrackStatus::tracked) return {};  // part of a hand
+  if (seen.status != TrackStatus::tracked) return {};  // a cut hand, followed
   TrackedView view;
   view.timestamp_us = frame.depth_timestamp_us;
   view.pose = {result.posture_unfiltered, result.T_camera_hand_unfiltered};

@@ -16,7 +16,7 @@ struct TrackedView {
   HandView seen;
   ArticulatedPose pose;  ///< the fit starts here
 };
-/// Empty if the hand was lost.
+/// Empty if the hand was lost or cut by the border.
 std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& result, const MethodInputs& inputs);
 
 /// From the hand to the camera, hand frame.

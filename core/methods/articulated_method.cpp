@@ -12,20 +12,20 @@
 namespace glovebench {
 namespace {
 
-constexpr double kPartResidual = 0.004;  ///< m: a part whose points lie farther from the hand is in another pose
-constexpr double kLeastPart = 0.25;      ///< share of the vertices: of a smaller part the posture is a guess
+// Of a hand that the border cuts:
+constexpr double kLeastPart = 0.25;      ///< share of its vertices within the image: with less its pose is a guess
+constexpr double kPartResidual = 0.004;  ///< m: if the points lie farther from it, they are something else
 
-/// Share of the hand's vertices within the image and the volume.
-double share_in_view(const HandModel& model, const ArticulatedPose& pose, const PinholeCamera& camera,
-                     const WorkingVolume& volume) {
+/// Share of the hand's vertices within the image.
+double share_in_image(const HandModel& model, const ArticulatedPose& pose, const PinholeCamera& camera) {
   const PosedHand hand = model.pose(pose.posture);
-  const auto is_in_view = [&](const Eigen::Vector3f& vertex) {
+  const auto is_inside = [&](const Eigen::Vector3f& vertex) {
     const Eigen::Vector3d p = pose.T_camera_hand * vertex.cast<double>();
-    if (p.z() < volume.z_min || p.z() > volume.z_max) return false;
+    if (!(p.z() > 0)) return false;
     const Eigen::Vector2d uv = camera.project(p);
     return uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1;
   };
-  return static_cast<double>(std::ranges::count_if(hand.vertices, is_in_view)) /
+  return static_cast<double>(std::ranges::count_if(hand.vertices, is_inside)) /
          static_cast<double>(hand.vertices.size());
 }
 
@@ -46,32 +46,27 @@ class Articulated : public Method {
 
  private:
   TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
-  /// The look-up's mean and matches. Writes matches, status, `ambiguous`. Empty without a match.
-  RecycledVector<ArticulatedPose> look_up(const LabeledCloud& cloud, const StageObserver& observe,
-                                          TrackResult& result) const;
+  /// Of a whole hand the matches and their mean, and the frame before.
+  RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
+                                         const HandLookUp& found, const LabeledCloud& cloud) const;
 
   MethodInputs in_;
   ArticulatedFit fit_;
   HandView view_;
 };
 
-RecycledVector<ArticulatedPose> Articulated::look_up(const LabeledCloud& cloud, const StageObserver& observe,
-                                                     TrackResult& result) const {
-  HandLookUp found = look_up_hand(cloud.labels, in_.calibration.ir, *in_.database, in_.config.lookup, observe);
-  result.matches = std::move(found.matches);
-  result.status = found.status;
-  if (result.status != TrackStatus::tracked) return {};
-  result.ambiguous = found.coarse.ambiguous;
-  const auto placed = [&](const CoarseEstimate& one) {
-    return ArticulatedPose{one.posture,
-                           coarse_pose(*in_.model, in_.model->pose(one.posture), one.R_camera_hand, cloud.points)};
-  };
-  RecycledVector<ArticulatedPose> starts = {placed(found.coarse)};
+RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const TrackResult* previous,
+                                                    const HandLookUp& found, const LabeledCloud& cloud) const {
+  RecycledVector<ArticulatedPose> all;
+  if (!result.matches.empty()) all.push_back({found.coarse.posture, result.T_camera_hand_coarse});
+  if (previous != nullptr) all.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
   for (const Match& match : result.matches) {
-    starts.push_back(placed(
-        interpolate(*in_.database, std::span(&match, 1), found.ray, in_.config.lookup.interpolation_epsilon)));
+    const CoarseEstimate one =
+        interpolate(*in_.database, std::span(&match, 1), found.ray, in_.config.lookup.interpolation_epsilon);
+    const PosedHand hand = in_.model->pose(one.posture);
+    all.push_back({one.posture, coarse_pose(*in_.model, hand, one.R_camera_hand, cloud.points)});
   }
-  return starts;
+  return all;
 }
 
 TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* previous,
@@ -80,20 +75,30 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   const Sighting seen = see_in_reach(frame, in_.calibration, *in_.table, in_.config, observe);
   result.cloud_points = static_cast<int>(seen.cloud.points.size());
   result.status = seen.status;
-
-  RecycledVector<ArticulatedPose> starts;
   const bool is_part = previous != nullptr && is_part_of_hand(seen, in_.config.detection);
-  if (seen.status == TrackStatus::tracked) starts = look_up(seen.cloud, observe, result);
-  if (starts.empty() && !is_part) return result;
-  if (previous != nullptr) starts.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
-  result.T_camera_hand_coarse = starts.front().T_camera_hand;
+  if (result.status != TrackStatus::tracked && !is_part) return result;
+
+  HandLookUp found;
+  if (is_part) {
+    result.T_camera_hand_coarse = previous->T_camera_hand_unfiltered;
+  } else {
+    found = look_up_hand(seen.cloud.labels, in_.calibration.ir, *in_.database, in_.config.lookup, observe);
+    result.matches = std::move(found.matches);
+    result.status = found.status;
+    if (result.status != TrackStatus::tracked) return result;
+    const CoarseEstimate& mean = found.coarse;
+    result.ambiguous = mean.ambiguous;
+    result.T_camera_hand_coarse =
+        coarse_pose(*in_.model, in_.model->pose(mean.posture), mean.R_camera_hand, seen.cloud.points);
+  }
 
   observe(Stage::mask);
   view_.assign(seen, frame);
 
   observe(Stage::fit);
-  const ArticulatedEstimate fitted = fit_({view_.points, view_.mask, in_.calibration.ir}, starts,
-                                          previous == nullptr ? nullptr : &previous->posture_unfiltered);
+  const ArticulatedEstimate fitted =
+      fit_({view_.points, view_.mask, in_.calibration.ir}, starts(result, previous, found, seen.cloud),
+           previous == nullptr ? nullptr : &previous->posture_unfiltered);
   result.posture_unfiltered = fitted.pose.posture;
   result.T_camera_hand_unfiltered = fitted.pose.T_camera_hand;
   result.converged = fitted.status == AlignmentStatus::converged;
@@ -104,8 +109,8 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   if (result.converged) result.certainty = {fitted.deviation, fitted.hidden};
   result.status = status_of(fitted.status);
   if (result.converged && fitted.residual > in_.config.max_residual) result.status = TrackStatus::poor_alignment;
-  if (is_part && (fitted.residual > kPartResidual ||
-                  share_in_view(*in_.model, fitted.pose, in_.calibration.ir, in_.config.volume) < kLeastPart))
+  if (is_part && (!result.converged || fitted.residual > kPartResidual ||
+                  share_in_image(*in_.model, fitted.pose, in_.calibration.ir) < kLeastPart))
     result.status = seen.status;
   return result;
 }

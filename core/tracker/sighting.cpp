@@ -78,8 +78,7 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
 }
 
 bool is_part_of_hand(const Sighting& seen, const DetectionConfig& config) {
-  if (seen.status != TrackStatus::cut_by_border && seen.status != TrackStatus::outside_volume) return false;
-  return static_cast<int>(seen.cloud.points.size()) >= config.min_pixels && is_one_hand(seen.cloud, config);
+  return seen.status == TrackStatus::cut_by_border && is_one_hand(seen.cloud, config);
 }
 
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,

@@ -33,7 +33,7 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
 
-/// Is it one hand of which image or volume hold only a part? A look-up would take that for a whole hand.
+/// Is it one hand that the border cuts? A look-up would take that for a whole hand.
 bool is_part_of_hand(const Sighting& seen, const DetectionConfig& config);
 
 /// Input of the fit of pose and posture.

@@ -14,7 +14,7 @@
 namespace glovebench {
 
 /// A frame that is not `tracked` is lost. It repeats the last tracked posture and pose (at first: the open hand at
-/// the origin). `articulated` can follow a hand that border or volume leave a part of: then its frame is `tracked`.
+/// the origin). `articulated` can follow a hand that the border cuts: then its frame is `tracked`.
 enum class TrackStatus {
   tracked,
   no_hand,         ///< too few glove pixels
@@ -64,7 +64,7 @@ struct TrackResult {
   Posture posture_unfiltered = Posture::Zero();  ///< rad
   Eigen::Isometry3d T_camera_hand_unfiltered = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_camera_hand_coarse = Eigen::Isometry3d::Identity();
-  RecycledVector<Match> matches;  ///< none if the method followed a part of the hand
+  RecycledVector<Match> matches;  ///< none if a cut hand was followed
 
   EstimateParts has;
   /// By joint without the forearm, camera axes, m. Empty: those of the tracker's hand in this posture and pose.
