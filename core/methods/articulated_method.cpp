@@ -12,7 +12,7 @@
 namespace glovebench {
 namespace {
 
-// Of a hand that the border cuts:
+// A hand that the border cuts is followed within these limits.
 constexpr double kLeastPart = 0.25;      ///< share of its vertices within the image: with less its pose is a guess
 constexpr double kPartResidual = 0.004;  ///< m: if the points lie farther from it, they are something else
 
@@ -46,7 +46,7 @@ class Articulated : public Method {
 
  private:
   TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
-  /// Of a whole hand the matches and their mean, and the frame before.
+  /// The frame before; for a whole hand also the matches and their mean.
   RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
                                          const HandLookUp& found, const LabeledCloud& cloud) const;
 
@@ -75,7 +75,7 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   const Sighting seen = see_in_reach(frame, in_.calibration, *in_.table, in_.config, observe);
   result.cloud_points = static_cast<int>(seen.cloud.points.size());
   result.status = seen.status;
-  const bool is_part = previous != nullptr && is_part_of_hand(seen, in_.config.detection);
+  const bool is_part = previous != nullptr && seen.status == TrackStatus::cut_by_border;
   if (result.status != TrackStatus::tracked && !is_part) return result;
 
   HandLookUp found;

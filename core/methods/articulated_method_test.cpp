@@ -88,7 +88,7 @@ TEST(Articulated, follows_a_hand_that_leaves_the_image) {
       EXPECT_LT(error_of(result.T_camera_hand, exit.pose(i)).mm, 1);
       EXPECT_LT(error_of(result.T_camera_hand, exit.pose(i)).deg, 1);
       if (alone.status == TrackStatus::tracked) continue;
-      // Nothing tells what a part belongs to that is seen first.
+      // Without a frame before, a part is not tracked.
       EXPECT_EQ(alone.status, TrackStatus::cut_by_border);
       EXPECT_FALSE(result.misfit) << "a part says little about the hand's sizes";
       ASSERT_TRUE(result.certainty);

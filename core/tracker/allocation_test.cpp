@@ -88,7 +88,7 @@ std::vector<DeviceFrame> leaving() {
   return frames;
 }
 
-/// Of the third time that a method sees `frames`.
+/// The requests in each frame when a method sees `frames` for the third time.
 std::vector<int> requests_a_frame(const TrackerConfig& config, const std::vector<DeviceFrame>& frames) {
   const std::unique_ptr<Method> method = find_method(config.method)
                                              .make({config, synthetic_calibration(), borrowed(render::test_hand()),

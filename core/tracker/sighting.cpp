@@ -55,12 +55,6 @@ float mean_depth(std::span<const LabeledPoint> points) {
   return static_cast<float>(sum / static_cast<double>(points.size()));
 }
 
-/// Has no second component above `second_hand_share` of the largest?
-bool is_one_hand(const LabeledCloud& cloud, const DetectionConfig& config) {
-  const RecycledVector<int> sizes = component_sizes(cloud, config.component_depth_step);
-  return sizes.size() < 2 || sizes[1] <= config.second_hand_share * sizes[0];
-}
-
 }  // namespace
 
 bool is_cut_by_border(const LabelImage& labels, size_t glove_pixels, const DetectionConfig& config) {
@@ -74,11 +68,9 @@ TrackStatus detect(const LabeledCloud& cloud, const DetectionConfig& config) {
   // With a third of the glove cut off, the rest would be matched as a whole hand.
   if (2 * cloud.labeled_cut_off > static_cast<int>(cloud.points.size())) return TrackStatus::outside_volume;
   if (is_cut_by_border(cloud.labels, cloud.points.size(), config)) return TrackStatus::cut_by_border;
-  return is_one_hand(cloud, config) ? TrackStatus::tracked : TrackStatus::several_hands;
-}
-
-bool is_part_of_hand(const Sighting& seen, const DetectionConfig& config) {
-  return seen.status == TrackStatus::cut_by_border && is_one_hand(seen.cloud, config);
+  const RecycledVector<int> sizes = component_sizes(cloud, config.component_depth_step);
+  if (sizes.size() > 1 && sizes[1] > config.second_hand_share * sizes[0]) return TrackStatus::several_hands;
+  return TrackStatus::tracked;
 }
 
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,

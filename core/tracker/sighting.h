@@ -33,15 +33,12 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
 
-/// Is it one hand that the border cuts? A look-up would take that for a whole hand.
-bool is_part_of_hand(const Sighting& seen, const DetectionConfig& config);
-
 /// Input of the fit of pose and posture.
 struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
   HandMask mask;
 
-  /// `seen` must be `tracked` or part of a hand. Reuses memory.
+  /// `seen` must be `tracked` or `cut_by_border`. Reuses memory.
   void assign(const Sighting& seen, const DeviceFrame& frame);
 };
 
