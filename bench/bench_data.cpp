@@ -88,7 +88,7 @@ std::vector<BenchFrame> track_frames(const BenchData& data, const Movement& move
     frame.images = kinect.truth();
     frame.result = tracker.track(frame.device, results);
     results.push_back(frame.result);
-    frame.trace = tracker.inspect(frame.device);
+    frame.trace = inspect(frame.device, data.calibration, *data.table, data.config);
     if (frame.result.status != TrackStatus::tracked) {
       check(data.settings.frames != FrameSet::paper, "the tracker follows the paper's movements");
       continue;

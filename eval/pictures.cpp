@@ -7,6 +7,7 @@
 
 #include "core/adapters/pictures/picture_files.h"
 #include "core/base/error.h"
+#include "core/pose/interpolate.h"
 #include "eval/program.h"
 #include "eval/run_warnings.h"
 #include "render/label_renderer.h"
@@ -122,7 +123,7 @@ std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
   const reports::FrameRecord& record = errors.record;
   std::vector<std::string> tips;
   for (const int tip : fingertip_joints()) tips.push_back(reports::fixed(errors.joint_errors_mm[tip], 0));
-  return {{"Errors of this frame alone, without the filter:"},
+  return {{"Errors without earlier frames:"},
           {fmt::format("position {:.1f} mm, rotation {:.1f} deg", *record["position_error_mm"],
                        *record["rotation_error_deg"])},
           {fmt::format("posture {:.1f} deg (RMS of 22 angles)", *record["posture_rms_deg"])},
@@ -132,7 +133,7 @@ std::vector<render::TextLine> errors_alone(const reports::FrameErrors& errors) {
 std::vector<render::TextLine> errors_in_run(const reports::FrameRecord& record) {
   if (record.status != TrackStatus::tracked)
     return {{fmt::format("In the run: lost, {}", to_string(record.status))}};
-  return {{"In the run, with the filter:"},
+  return {{"In the run:"},
           {fmt::format("position {} mm, rotation {} deg", reports::fixed(record["position_error_mm"], 1),
                        reports::fixed(record["rotation_error_deg"], 1))},
           {fmt::format("posture {} deg, fingertips {} mm", reports::fixed(record["posture_rms_deg"], 1),
@@ -141,16 +142,16 @@ std::vector<render::TextLine> errors_in_run(const reports::FrameRecord& record) 
 
 /// Explains the outlines and E, and lists the errors. `alone`: empty if the frame is lost.
 ColorImage legend(const std::optional<reports::FrameErrors>& alone, const reports::FrameRecord& in_run) {
-  std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline},
-                                         {"orange: this frame alone, no filter", kEstimatedOutline},
-                                         {"blue: in the run, with the filter", kRunOutline},
-                                         {""},
-                                         {"E: mean distance from a glove pixel of the tiny"},
-                                         {"image to the entry's nearest pixel of its color,"},
-                                         {"in pixels; 0 is equal (equation 2)"}};
+  std::vector<render::TextLine> lines = {{"white: the true hand", kTrueOutline}};
   const auto append = [&](const std::vector<render::TextLine>& more) {
     lines.insert(lines.end(), more.begin(), more.end());
   };
+  if (alone) append({{"orange: tracked without earlier frames", kEstimatedOutline}});
+  if (in_run.status == TrackStatus::tracked) append({{"blue: in the run", kRunOutline}});
+  append({{""},
+          {"E: mean distance from a glove pixel of the tiny"},
+          {"image to the entry's nearest pixel of its color,"},
+          {"in pixels; 0 is equal (equation 2)"}});
   lines.push_back({""});
   if (alone) append(errors_alone(*alone));
   append(errors_in_run(in_run));
@@ -223,9 +224,9 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
     throw Error(spec.trajectory->name, "frame", std::to_string(frame), fmt::format("0 to {}", count - 1));
   const OneFrame taken = take_frame(workbench, spec, frame);
   const std::shared_ptr<const Database> database = workbench.database(spec.database);
-  const Tracker tracker = workbench.make_tracker(spec.tracker, spec.database);
-  const TrackResult result = tracker.track(taken.frame);
-  const FrameTrace trace = tracker.inspect(taken.frame);
+  const TrackResult result = workbench.make_method(spec.tracker, spec.database)->track(taken.frame);
+  const FrameTrace trace = inspect(taken.frame, workbench.calibration(),
+                                   *workbench.color_table(spec.tracker.segmentation.color_space), spec.tracker);
 
   const auto cropped = [&](const ColorImage& image) {
     return render::crop_to_labels(image, taken.truth.label, kMargin);
@@ -235,37 +236,43 @@ ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const report
       {depth_title(result), render::picture_of_depth(trace.depth, 0.4, 1.8)},
       {"mapped image M", cropped(trace.mapped.color)},
       {"labels L in the working volume", cropped(render::picture_of_labels(trace.cloud.labels))},
-      {"true labels", cropped(render::picture_of_labels(taken.truth.label))},
-      {fmt::format("tiny image {0} x {0}", trace.tiny.width()), render::picture_of_labels(trace.tiny)}};
+      {"true labels", cropped(render::picture_of_labels(taken.truth.label))}};
+  if (!trace.tiny.empty())
+    panels.push_back(
+        {fmt::format("tiny image {0} x {0}", trace.tiny.width()), render::picture_of_labels(trace.tiny)});
   for (const Match& match : result.matches) {
     const int posture = match.entry / kViewCount;
     panels.push_back({fmt::format("{}, view {}: E {:.2f} px", database->posture_set().posture_names[posture],
                                   Database::view(match.entry), match.error),
                       render::picture_of_labels(database->labels(trace.tiny.width(), match.entry))});
   }
+  const HandModel& model = *workbench.model();
+  const auto outlined = [&](const std::vector<Outline>& hands) {
+    return cropped(overlay(model, hands, trace, taken.truth.label, workbench.calibration().ir));
+  };
+  std::vector<Outline> hands;
+  if (hand_in_run) hands = {{hand_in_run->posture, hand_in_run->T_camera_hand, kRunOutline}};
   std::optional<reports::FrameErrors> errors;
   if (result.status == TrackStatus::tracked) {
-    const HandModel& model = *workbench.model();
     errors = reports::measure_frame(
         frame, result,
         {spec.trajectory->frames[frame].posture, spec.trajectory->frames[frame].T_camera_hand,
          workbench.subject(spec.subject).joints(spec.trajectory->frames[frame].posture),
          reports::count_patches(taken.truth.patch)},
         model);
-    const PinholeCamera& camera = workbench.calibration().ir;
-    const auto outlined = [&](std::span<const Outline> hands) {
-      return cropped(overlay(model, hands, trace, taken.truth.label, camera));
-    };
-    std::vector<Outline> hands = {{result.posture_unfiltered, result.T_camera_hand_coarse, kEstimatedOutline}};
-    panels.push_back({"coarse pose over M", outlined(hands)});
-    hands[0].T_camera_hand = result.T_camera_hand;
-    // Below the other, which it often equals.
-    if (hand_in_run) hands.insert(hands.begin(), {hand_in_run->posture, hand_in_run->T_camera_hand, kRunOutline});
-    panels.push_back({fmt::format("aligned in {} iterations, {:.1f} mm off", result.icp_iterations,
+    // Tracked alone, it was looked up.
+    const Posture coarse =
+        interpolate(*database, result.matches, std::nullopt, spec.tracker.lookup.interpolation_epsilon).posture;
+    panels.push_back({"coarse pose over M", outlined({{coarse, result.T_camera_hand_coarse, kEstimatedOutline}})});
+    // Above the other, which it often equals.
+    hands.push_back({result.posture_unfiltered, result.T_camera_hand_unfiltered, kEstimatedOutline});
+    panels.push_back({fmt::format("after {} iterations, {:.1f} mm off", result.icp_iterations,
                                   *errors->record["position_error_mm"]),
                       outlined(hands)});
   } else {
-    panels.push_back({"lost: " + std::string(to_string(result.status)), {}});
+    panels.push_back(
+        {fmt::format("{}: {}", hand_in_run ? "lost without earlier frames" : "lost", to_string(result.status)),
+         outlined(hands)});
   }
   panels.push_back({"legend", legend(errors, in_run)});
   return render::montage(panels, kPanelColumns, kCellWidth, kCellHeight);
@@ -280,8 +287,7 @@ reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, cons
     return material;
   }
   material.from_files = inputs_from_files(plan);
-  // Only the paper's method can show its stages.
-  if (plan.tracker.method == kPaperMethod)
+  if (shows_stages(plan.tracker.method))
     material.worst_frames = picture_worst_frames(workbench, plan, result, estimates, material.from_files);
   for (const std::string& warning : lost_hand_warnings(plan, result, ".")) material.warnings.push_back(warning);
   return material;

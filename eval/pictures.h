@@ -11,14 +11,14 @@
 
 namespace glovebench::eval {
 
-/// Chart scripts, sheets of Figures 5 and 6 if run, the worst frames (paper's method only), and warnings.
+/// Chart scripts, sheets of Figures 5 and 6 if run, the worst frames if they can be explained, and warnings.
 /// Throws: Error.
 reports::PageMaterial page_material(Workbench& workbench, const Plan& plan, const reports::RunResult& result,
                                     const std::vector<reports::ExperimentEstimates>& estimates);
 
-/// Shows all tracker stages of a frame, tracked alone, without the filter. `in_run`, `hand_in_run`: the run's
-/// errors and estimate.
-/// Throws: Error if the trajectory lacks the frame or the method is not the paper's.
+/// Shows all stages of a frame, tracked without those before it. The method must be one that `shows_stages`.
+/// `in_run`, `hand_in_run`: the run's errors and estimate.
+/// Throws: Error if the trajectory lacks the frame.
 ColorImage explain_frame(Workbench& workbench, const RunSpec& spec, const reports::FrameRecord& in_run,
                          const std::optional<HandFrame>& hand_in_run);
 

@@ -51,11 +51,12 @@ std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::Run
     const reports::SeedRun& run = experiment.runs.front();
     warnings.push_back(fmt::format(
         "{}: none of {} frames was tracked. Likely causes: the hand is outside of the image or of the working "
-        "volume ({:g} to {:g} mm), or the database lacks its postures. To see: {}",
+        "volume ({:g} to {:g} mm), or the database lacks its postures.",
         to_string(experiment.key), coverage.frames, 1000 * plan.tracker.volume.z_min,
-        1000 * plan.tracker.volume.z_max,
-        reports::explain_command({experiment.key, run.seed, run.frames.front(), ""}, inputs_from_files(plan),
-                                 folder)));
+        1000 * plan.tracker.volume.z_max));
+    if (!shows_stages(plan.tracker.method)) continue;
+    warnings.back() += " To see: " + reports::explain_command({experiment.key, run.seed, run.frames.front(), ""},
+                                                              inputs_from_files(plan), folder);
   }
   return warnings;
 }

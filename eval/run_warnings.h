@@ -15,8 +15,8 @@ namespace glovebench::eval {
 /// A sentence per trajectory and likely mistake of its units.
 std::vector<std::string> unit_warnings(const Plan& plan);
 
-/// A sentence per experiment that lost all frames, with a command that explains one. `folder`: the run's. Empty if
-/// the tracker is a program.
+/// A sentence per experiment that lost all frames, with a command that explains one if one can.
+/// `folder`: the run's. Empty if the tracker is a program.
 std::vector<std::string> lost_hand_warnings(const Plan& plan, const reports::RunResult& result,
                                             const std::string& folder);
 

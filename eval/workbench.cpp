@@ -21,6 +21,8 @@ std::unique_ptr<Method> make_method(const MethodInputs& inputs) {
   return is_program(method) ? make_process_method(inputs) : find_method(method).make(inputs);
 }
 
+bool shows_stages(const std::string& method) { return !is_program(method) && find_method(method).sees_depth; }
+
 Workbench::Workbench(WorkbenchConfig config) : config_(std::move(config)) {}
 
 std::shared_ptr<const HandModel> Workbench::model() {
@@ -129,15 +131,6 @@ PostureSet Workbench::postures_of(const std::string& name) const {
 std::unique_ptr<Method> Workbench::make_method(const TrackerConfig& config, const std::string& database_name) {
   return eval::make_method({config, config_.calibration, model(), database(database_name),
                             color_table(config.segmentation.color_space), render::label_renderer_factory()});
-}
-
-Tracker Workbench::make_tracker(const TrackerConfig& config, const std::string& database_name) {
-  if (config.method != kPaperMethod) {
-    throw Error("configuration", "method", config.method,
-                fmt::format("{}, whose stages can be shown", kPaperMethod));
-  }
-  return Tracker(config, config_.calibration, model(), database(database_name),
-                 color_table(config.segmentation.color_space));
 }
 
 }  // namespace glovebench::eval

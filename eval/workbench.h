@@ -29,6 +29,8 @@ struct WorkbenchConfig {
 /// `find_method` or, for "exec:COMMAND", a program.
 /// Throws: Error.
 std::unique_ptr<Method> make_method(const MethodInputs& inputs);
+/// Does it begin with what `inspect` shows? False for a program.
+bool shows_stages(const std::string& method);
 
 /// Models, databases and color tables, made or loaded on first use. Thread-safe.
 class Workbench {
@@ -52,9 +54,6 @@ class Workbench {
   bool has_database(const std::string& name);
 
   std::unique_ptr<Method> make_method(const TrackerConfig& config, const std::string& database_name);
-  /// The paper's tracker.
-  /// Throws: Error if another method is configured.
-  Tracker make_tracker(const TrackerConfig& config, const std::string& database_name);
 
  private:
   WorkbenchConfig config_;

@@ -36,6 +36,7 @@ struct MethodEntry {
   std::string_view description;
   /// Throws: Error as Tracker.
   std::unique_ptr<Method> (*make)(const MethodInputs& inputs);
+  bool sees_depth = true;  ///< looks a hand up in a `Sighting`, if no earlier frame shows it
 };
 std::span<const MethodEntry> methods();
 /// Throws: Error for an unknown name.

@@ -98,7 +98,7 @@ std::unique_ptr<Method> make_monocular_bbox(const MethodInputs& inputs) {
 
 MethodEntry monocular_bbox_method() {
   return {"monocular_bbox", "the color image alone: the paper's look-up, depth from the size of the bounding box",
-          make_monocular_bbox};
+          make_monocular_bbox, false};
 }
 
 }  // namespace glovebench

@@ -58,11 +58,12 @@ TrackResult Tracker::track(const DeviceFrame& frame, std::span<const TrackResult
   return smoothed(std::move(result), previous, config_.smoothing);
 }
 
-FrameTrace Tracker::inspect(const DeviceFrame& frame) const {
-  FrameTrace trace{see(frame, calibration_, *table_, config_), {}};
+FrameTrace inspect(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+                   const TrackerConfig& config) {
+  FrameTrace trace{see(frame, calibration, table, config), {}};
   if (trace.status == TrackStatus::tracked) {
     const LabelImage& labels = trace.cloud.labels;
-    trace.tiny = make_tiny_image(labels, bounding_square(labels), config_.lookup.cascade.back().size);
+    trace.tiny = make_tiny_image(labels, bounding_square(labels), config.lookup.cascade.back().size);
   }
   return trace;
 }

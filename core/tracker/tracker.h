@@ -17,6 +17,9 @@ namespace glovebench {
 struct FrameTrace : Sighting {
   LabelImage tiny;  ///< of the last stage; empty without a hand
 };
+/// What a frame shows, and the tiny image that is looked up. Processes the whole images.
+FrameTrace inspect(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
+                   const TrackerConfig& config);
 
 /// Throws: Error for an impossible configuration, or if side, tiny images or color spaces differ.
 void check_inputs(const TrackerConfig& config, const HandModel& model, const Database& database,
@@ -35,10 +38,6 @@ class Tracker {
   /// `previous`: earlier results in time order; the newest `smoothing.forget_after` suffice.
   TrackResult track(const DeviceFrame& frame, std::span<const TrackResult> previous = {},
                     const StageObserver& observe = unobserved) const;
-  /// Processes the whole images.
-  FrameTrace inspect(const DeviceFrame& frame) const;
-
-  const TrackerConfig& config() const { return config_; }
 
  private:
   TrackResult estimate(const DeviceFrame& frame, const StageObserver& observe) const;

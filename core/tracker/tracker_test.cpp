@@ -40,7 +40,7 @@ TEST(Tracker, tells_its_stages_and_what_they_made) {
   std::vector<Stage> stages;
   Tracker tracker = make_tracker();
   const Shot shot = shoot(test_pose({0.02, 0.03, 0.7}));
-  const FrameTrace trace = tracker.inspect(shot.frame);
+  const FrameTrace trace = inspect(shot.frame, synthetic_calibration(), test_color_table(), {});
   const TrackResult seen = tracker.track(shot.frame, {}, [&](Stage stage) { stages.push_back(stage); });
   EXPECT_THAT(stages, ElementsAre(Stage::registration, Stage::segmentation, Stage::cloud, Stage::tiny_images,
                                   Stage::look_up, Stage::alignment, Stage::smoothing));

@@ -42,6 +42,9 @@ struct Explain {
     if (!results.configuration.contains("tracker"))
       throw Error(results_path, "configuration", "no tracker", "a run of a tracker, whose stages can be shown");
     common.config_json = results.configuration.at("tracker");
+    const TrackerConfig tracker = common.tracker_config();
+    if (!shows_stages(tracker.method))
+      throw Error(results_path, "method", tracker.method, "one that sees depth, whose stages can be shown");
     common.calibration_json = results.configuration.value("calibration", nlohmann::json());
     common.hand_json = results.configuration.value("hand", nlohmann::json());
     Workbench workbench = common.workbench();
@@ -51,7 +54,7 @@ struct Explain {
                        .noise = chosen.key.noise,
                        .seed = chosen.seed,
                        .database = chosen.key.database,
-                       .tracker = common.tracker_config(),
+                       .tracker = tracker,
                        .appearance = chosen.key.appearance};
     check_database(results, chosen.key, *workbench.database(chosen.key.database), results_path);
     const int number = chosen.frame.frame;

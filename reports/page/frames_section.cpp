@@ -47,7 +47,7 @@ std::string curve_plot(const SeedRun& run, const std::string& metric, double lar
 }
 
 /// A foldable part whose id is "frames-" and the experiment's name.
-std::string frames_html(const ExperimentResult& experiment, const std::set<std::string>& from_files) {
+std::string frames_html(const ExperimentResult& experiment, const PageMaterial& material) {
   Table table = table_of({"error", "mean", "largest", "in frame", "noise seed"});
   std::vector<std::string> plots, commands;
   for (const Column& error : kErrors) {
@@ -57,7 +57,9 @@ std::string frames_html(const ExperimentResult& experiment, const std::set<std::
     table.rows.push_back({error.heading, fixed(experiment.aggregate_of(error.key).mean, 2), fixed(largest, 2),
                           worst->frame.frame, static_cast<int64_t>(worst->seed)});
     plots.push_back(curve_plot(experiment.runs.front(), error.key, largest));
-    if (const std::string command = explain_command(*worst, from_files); std::ranges::count(commands, command) == 0)
+    if (material.worst_frames.empty()) continue;
+    if (const std::string command = explain_command(*worst, material.from_files);
+        std::ranges::count(commands, command) == 0)
       commands.push_back(command);
   }
   std::vector<std::string> names;
@@ -66,21 +68,23 @@ std::string frames_html(const ExperimentResult& experiment, const std::set<std::
   return fmt::format("<details id=\"frames-{}\"><summary>{}: {} of {} frames lost</summary>\n", escape_html(name),
                      escape_html(fmt::format("{}", fmt::join(names, ", "))), experiment.coverage.lost,
                      experiment.coverage.frames) +
-         (plots.empty() ? ""
-                        : to_html(table, plots) + "<pre>" +
-                              escape_html(fmt::format("{}", fmt::join(commands, "\n"))) + "</pre>\n") +
+         (plots.empty() ? "" : to_html(table, plots)) +
+         (commands.empty() ? ""
+                           : "<pre>" + escape_html(fmt::format("{}", fmt::join(commands, "\n"))) + "</pre>\n") +
          data_note("frames_" + name) + "</details>\n";
 }
 
 }  // namespace
 
-Section frames_section(const RunResult& result, const std::set<std::string>& from_files) {
+Section frames_section(const RunResult& result, const PageMaterial& material) {
   std::string html =
-      "<p>Curves go from 0 to the largest error; gaps are lost frames; of several noise seeds they show the first. "
-      "The commands show every stage of the worst frames; run them in this folder.";
-  if (!from_files.empty()) html += " PATH stands for the folder of a file that the run was given.";
+      "<p>Curves go from 0 to the largest error; gaps are lost frames; of several noise seeds they show the first.";
+  if (!material.worst_frames.empty()) {
+    html += " The commands show every stage of the worst frames; run them in this folder.";
+    if (!material.from_files.empty()) html += " PATH stands for the folder of a file that the run was given.";
+  }
   html += "</p>\n";
-  for (const ExperimentResult& experiment : result.experiments) html += frames_html(experiment, from_files);
+  for (const ExperimentResult& experiment : result.experiments) html += frames_html(experiment, material);
   return {"frames", "Frame by frame", html};
 }
 

@@ -85,7 +85,7 @@ std::vector<Section> all_sections(const RunResult& result, const PaperNumbers& p
   if (any_was_run(verdicts) || !quick_note(result).empty())
     sections.push_back({"claims", "Claims", claims_section(verdicts)});
   for (Section& section : study_sections(result)) sections.push_back(std::move(section));
-  if (!result.experiments.empty()) sections.push_back(frames_section(result, material.from_files));
+  if (!result.experiments.empty()) sections.push_back(frames_section(result, material));
   if (!result.experiments.empty()) sections.push_back(metrics_section(result));
   if (has_commands(result)) sections.push_back(command_section(result, timings));
   if (!material.worst_frames.empty()) sections.push_back(gallery_section(material.worst_frames));

@@ -29,8 +29,8 @@ inline constexpr double kSheetDifferenceMm = 20;
 struct PageMaterial {
   /// Vega, Vega-Lite, Vega-Embed, in this order. Empty: no charts.
   std::vector<std::string> scripts;
-  std::vector<FrameSheet> sheets;  ///< of Figures 5 and 6
-  std::vector<Picture> worst_frames;
+  std::vector<FrameSheet> sheets;          ///< of Figures 5 and 6
+  std::vector<Picture> worst_frames;       ///< none: `explain` cannot show the frames
   std::vector<std::string> warnings = {};  ///< a sentence each
   std::set<std::string> from_files = {};   ///< truths (truth_name) and databases that `explain` reads from files
 };

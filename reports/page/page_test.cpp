@@ -100,6 +100,8 @@ TEST(Page, WarnsAndNamesTheFilesThatExplainNeeds) {
   EXPECT_THAT(plain, Not(AnyOf(HasSubstr("Warning"), HasSubstr("PATH"))));
   material.warnings = {"wave: <no> hand"};
   material.from_files = {truth_name(small_result().experiments[0].key)};
+  EXPECT_THAT(html_page(small_result(), paper_numbers(), {}, material), Not(HasSubstr("glovebench explain")));
+  material.worst_frames = {{"Frame 60", "\xff\xd8\xff", ""}};
   const std::string page = html_page(small_result(), paper_numbers(), {}, material);
   EXPECT_LT(page.find("Warning:</strong> wave: &lt;no&gt; hand"), page.find("<nav"));
   EXPECT_THAT(page, AllOf(HasSubstr(" --trajectory PATH/Tr4.json"), HasSubstr("PATH stands for")));

@@ -19,8 +19,8 @@ std::string data_note(const std::string& table);
 std::vector<Section> experiment_sections(const RunResult& result, const PaperNumbers& paper,
                                          const std::vector<FrameSheet>& sheets);
 std::vector<Section> study_sections(const RunResult& result);
-/// Curves and worst frames of each experiment. `from_files`: as in PageMaterial.
-Section frames_section(const RunResult& result, const std::set<std::string>& from_files);
+/// Curves and worst frames of each experiment.
+Section frames_section(const RunResult& result, const PageMaterial& material);
 
 std::string keyframes_html(const FrameSheet& sheet);
 /// One frame with a slider, for data/page_frames.js.
