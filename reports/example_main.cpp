@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     write_report(std::string(argv[1]) + "/small", small_result(), {});
     RunResult own = small_result();
     own.experiments.front().key.trajectory = "wave";
-    write_report(std::string(argv[1]) + "/own", own, {}, {page_scripts(), {}, {}});
+    write_report(std::string(argv[1]) + "/own", own, {}, {page_scripts(), {}, example_pictures(own)});
     const std::string comparison = std::string(argv[1]) + "/comparison";
     ComparisonReport report = full_comparison();
     report.scripts = page_scripts();

@@ -91,12 +91,17 @@ inline StudyResult example_ablations() {
   return {"ablations", "What the paper asserts, one change at a time", {table}, {}};
 }
 
-inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
-  PageMaterial material{std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, {}};
+inline std::vector<Picture> example_pictures(const RunResult& result) {
+  std::vector<Picture> pictures;
   for (const WorstFrame& worst : worst_frames(result))
-    material.worst_frames.push_back(
+    pictures.push_back(
         {caption(worst), encode_jpeg(ColorImage(400, 300, Rgb{90, 90, 90}), 90), explain_command(worst)});
-  return material;
+  return pictures;
+}
+
+inline PageMaterial example_material(const RunResult& result, std::vector<std::string> scripts) {
+  return {
+      std::move(scripts), {example_sheet("figure5", 117), example_sheet("figure6", 137)}, example_pictures(result)};
 }
 
 }  // namespace glovebench::reports

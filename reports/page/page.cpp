@@ -166,20 +166,23 @@ std::string html_page(const RunResult& result, const PaperNumbers& paper, const 
 
 std::vector<WorstFrame> worst_frames(const RunResult& result, int count) {
   const NoiseSetting noise = headline_noise(result);
-  std::vector<const ExperimentResult*> experiments;
-  for (const ExperimentResult& experiment : result.experiments)
-    if (is_preferred(experiment.key, noise)) experiments.push_back(&experiment);
-  if (experiments.empty())
-    for (const ExperimentResult& experiment : result.experiments) experiments.push_back(&experiment);
-
-  std::vector<WorstFrame> chosen;
-  const auto add = [&](std::string_view metric, int most) {
-    for (const WorstFrame& candidate : ranked(experiments, metric))
-      if (static_cast<int>(chosen.size()) < most && may_join(chosen, candidate)) chosen.push_back(candidate);
+  std::vector<const ExperimentResult*> all, preferred;
+  for (const ExperimentResult& experiment : result.experiments) {
+    all.push_back(&experiment);
+    if (is_preferred(experiment.key, noise)) preferred.push_back(&experiment);
+  }
+  const auto worst_of = [&](const std::vector<const ExperimentResult*>& experiments) {
+    std::vector<WorstFrame> chosen;
+    const auto add = [&](std::string_view metric, int most) {
+      for (const WorstFrame& candidate : ranked(experiments, metric))
+        if (static_cast<int>(chosen.size()) < most && may_join(chosen, candidate)) chosen.push_back(candidate);
+    };
+    add("position_error_mm", count / 2);
+    add("posture_rms_deg", static_cast<int>(chosen.size()) + count - count / 2);
+    return chosen;
   };
-  add("position_error_mm", count / 2);
-  add("posture_rms_deg", static_cast<int>(chosen.size()) + count - count / 2);
-  return chosen;
+  const std::vector<WorstFrame> chosen = worst_of(preferred);
+  return chosen.empty() ? worst_of(all) : chosen;
 }
 
 std::string explain_command(const WorstFrame& worst, const std::set<std::string>& from_files,
