@@ -43,7 +43,7 @@ std::optional<TrackedView> view_of(const DeviceFrame& frame, const TrackResult& 
   TrackedView view;
   view.timestamp_us = frame.depth_timestamp_us;
   view.pose = {result.posture_unfiltered, result.T_camera_hand_unfiltered};
-  view.seen.assign(seen, frame);
+  view.seen.assign(seen, frame, inputs.config.volume);
   return view;
 }
 

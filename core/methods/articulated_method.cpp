@@ -93,7 +93,7 @@ TrackResult Articulated::estimate(const DeviceFrame& frame, const TrackResult* p
   }
 
   observe(Stage::mask);
-  view_.assign(seen, frame);
+  view_.assign(seen, frame, in_.config.volume);
 
   observe(Stage::fit);
   const ArticulatedEstimate fitted =

@@ -39,6 +39,8 @@ Sighting see_in(DepthImage depth, const ColorImage& color, const RgbdCalibration
 constexpr float kDepthStep = 0.010;  ///< m: a point beside a larger one lies on an edge and may be anywhere
 constexpr float kBehindHand = 0.13;  ///< m: what is this much farther than the hand's mean depth is not the hand
 constexpr int kMaskMargin_px = 40;
+/// m behind the volume: what may be cut off, and the neighbors that decide on its labels.
+constexpr double kReach = kCutOffMargin + kSurfaceStep;
 
 /// Does a neighbor of a pixel within the image lie at another depth, or at none?
 bool is_at_edge(const DepthImage& depth, int u, int v) {
@@ -81,9 +83,9 @@ Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe) {
   observe(Stage::registration);
-  // A filter over neighbors looks across the border of what is left out.
-  if (!config.segmentation.majority_filter && !config.segmentation.surface_majority) {
-    Sighting seen = see_in(depth_of(frame, calibration.disparity, config.volume.z_max + kCutOffMargin), frame.color,
+  // The majority filter's neighbors may be at any depth.
+  if (!config.segmentation.majority_filter) {
+    Sighting seen = see_in(depth_of(frame, calibration.disparity, config.volume.z_max + kReach), frame.color,
                            calibration, table, config, observe);
     // With too few points the status depends on what lies outside.
     if (static_cast<int>(seen.cloud.points.size()) >= config.detection.min_pixels) return seen;
@@ -92,9 +94,11 @@ Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibrati
   return see_in(depth_of(frame, calibration.disparity), frame.color, calibration, table, config, observe);
 }
 
-void HandView::assign(const Sighting& seen, const DeviceFrame& frame) {
+void HandView::assign(const Sighting& seen, const DeviceFrame& frame, const WorkingVolume& volume) {
   const LabeledCloud& cloud = seen.cloud;
-  mask.assign(seen.depth, frame, label_box(cloud.labels, kMaskMargin_px), mean_depth(cloud.points) + kBehindHand);
+  const float farthest =
+      std::min(mean_depth(cloud.points) + kBehindHand, static_cast<float>(volume.z_max + kCutOffMargin));
+  mask.assign(seen.depth, frame, label_box(cloud.labels, kMaskMargin_px), farthest);
   points.clear();
   points.reserve(cloud.points.size());
   size_t next = 0;

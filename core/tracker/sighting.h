@@ -28,8 +28,7 @@ struct Sighting {
 
 Sighting see(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
              const TrackerConfig& config);
-/// The same cloud and status, faster. Ignores depths over kCutOffMargin behind the volume, also in
-/// `labeled_outside`.
+/// The same cloud, status and HandView, faster. Ignores what is far behind the volume, also in `labeled_outside`.
 Sighting see_in_reach(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                       const TrackerConfig& config, const StageObserver& observe);
 
@@ -38,8 +37,8 @@ struct HandView {
   RecycledVector<LabeledPoint> points;  ///< camera frame, m; none at a surface's edge
   HandMask mask;
 
-  /// `seen` must be `tracked` or `cut_by_border`. Reuses memory.
-  void assign(const Sighting& seen, const DeviceFrame& frame);
+  /// `seen` must be `tracked` or `cut_by_border`. The mask ends kCutOffMargin behind the volume. Reuses memory.
+  void assign(const Sighting& seen, const DeviceFrame& frame, const WorkingVolume& volume);
 };
 
 }  // namespace glovebench

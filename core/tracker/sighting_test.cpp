@@ -30,6 +30,20 @@ void expect_alike(const DeviceFrame& frame, const TrackerConfig& config = {}) {
   }
 }
 
+/// Nor what the fit of pose and posture is given.
+void expect_the_same_view(const DeviceFrame& frame, const TrackerConfig& config) {
+  const Sighting all = seen(frame, config), near = seen_in_reach(frame, config);
+  ASSERT_FALSE(all.cloud.points.empty());
+  HandView of_all, of_near;
+  of_all.assign(all, frame, config.volume);
+  of_near.assign(near, frame, config.volume);
+  ASSERT_EQ(of_near.points.size(), of_all.points.size());
+  for (size_t i = 0; i < of_all.points.size(); ++i) ASSERT_EQ(of_near.points[i].p, of_all.points[i].p);
+  for (int v = 0; v < all.depth.height(); v += 3)
+    for (int u = 0; u < all.depth.width(); u += 3)
+      ASSERT_EQ(of_near.mask.way_back_px({u, v}), of_all.mask.way_back_px({u, v})) << u << ", " << v;
+}
+
 TEST(Sighting, within_reach_shows_the_same_hand) {
   for (const double z : {0.30, 0.38, 0.45, 0.7, 0.9, 0.94, 0.97, 1.0, 1.03}) {
     for (const double tilt : {0.0, 0.7}) {
@@ -48,6 +62,9 @@ TEST(Sighting, within_reach_leaves_the_far_scene_out) {
     return std::ranges::count_if(s.depth, [](float z) { return z > 0; });
   };
   EXPECT_LT(measured(near), measured(all) / 3);
+  TrackerConfig filtered;
+  filtered.segmentation.surface_majority = true;
+  EXPECT_LT(measured(seen_in_reach(frame, filtered)), measured(all) / 3);
   EXPECT_EQ(seen_in_reach(shoot(test_pose({0.6, 0, 0.6})).frame).depth,
             seen(shoot(test_pose({0.6, 0, 0.6})).frame).depth)
       << "without a hand everything counts";
@@ -79,8 +96,11 @@ TEST(Sighting, within_reach_heeds_the_filters) {
     expect_alike(shoot(test_pose({0.02, 0.03, z}, {0.7, 0.2, 0.3})).frame, config);
   config.segmentation.majority_filter = false;
   config.segmentation.surface_majority = true;
-  for (const double z : {0.9, 0.95, 0.98})
-    expect_alike(shoot(test_pose({0.02, 0.03, z}, {0.7, 0.2, 0.3})).frame, config);
+  for (const double z : {0.7, 0.9, 0.92, 0.95, 0.98}) {
+    const DeviceFrame frame = shoot(test_pose({0.02, 0.03, z}, {0.7, 0.2, 0.3})).frame;
+    expect_alike(frame, config);
+    expect_the_same_view(frame, config);
+  }
   config.segmentation.surface_majority = false;
   config.segmentation.largest_component = true;
   expect_alike(shoot(test_pose({0.02, 0.03, 0.9})).frame, config);

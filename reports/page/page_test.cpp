@@ -162,6 +162,8 @@ TEST(Gallery, TakesOtherExperimentsWhereNoneIsOnSource) {
   EXPECT_TRUE(worst_frames(result).empty());
   result.experiments = {experiment("C", TruthKind::recorded, {example_frame(3, 9, 9, 1)})};
   EXPECT_THAT(names(worst_frames(result)), ElementsAre("C:3"));
+  result.experiments.push_back(experiment("A", TruthKind::source, {example_lost_frame(5)}));
+  EXPECT_THAT(names(worst_frames(result)), ElementsAre("C:3")) << "every preferred frame is lost";
 }
 
 TEST(Gallery, CommandNamesExperimentAndSeedForTheShell) {
