@@ -61,7 +61,7 @@ const std::vector<Study>& studies() {
       {"paper-literal", "Figure 4 with the pose filtered, too", run_paper_literal, 360, true},
       {"recommended", "Figure 4 with the recommended settings", run_recommended, 500, true},
       {"deviations", "Deviations from the paper, and its gaps", run_deviations, 900, true},
-      {"limits", "What limits profile recommended", run_limits, 500, true},
+      {"limits", "What limits profile recommended", run_limits, 1200, true},
       {"external", "A program of yours beside ours", run_external, 300, true},
   };
   return all;

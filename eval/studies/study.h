@@ -117,7 +117,7 @@ reports::StudyResult run_deviations(const StudyContext& context);
 reports::StudyResult run_paper_literal(const StudyContext& context);
 /// Figure 4, profiles paper and recommended.
 reports::StudyResult run_recommended(const StudyContext& context);
-/// Suite families, profile recommended: the truth given to one part at a time.
+/// Suite families, profile recommended, given parts of the truth.
 reports::StudyResult run_limits(const StudyContext& context);
 /// The program of `options.tracker` beside profiles paper and recommended, gloved and bare.
 /// Throws: Error unless the method is a program.
