@@ -71,7 +71,7 @@ LabelImage majority_filter(const LabelImage& labels);
 /// Throws: Error.
 ColorTable color_table_from_bytes(std::string_view bytes, const std::string& where);
 
-inline constexpr double kSurfaceStep = 0.02;
+inline constexpr double kSurfaceStep = 0.02;  ///< m
 /// The most frequent label of those 3x3 pixels within `depth_step`, m. Ties go to the pixel's own label, else the
 /// smallest. Unlabeled pixels need two votes. Not in the paper.
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step = kSurfaceStep);

@@ -17,7 +17,7 @@ namespace glovebench {
 struct FrameTrace : Sighting {
   LabelImage tiny;  ///< of the last stage; empty without a hand
 };
-/// What a frame shows. Processes the whole images.
+/// Runs the stages before the look-up on whole images.
 FrameTrace inspect(const DeviceFrame& frame, const RgbdCalibration& calibration, const ColorTable& table,
                    const TrackerConfig& config);
 

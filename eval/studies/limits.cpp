@@ -77,6 +77,13 @@ Run with_hidden_angles_held(const Run& usual) {
   });
 }
 
+constexpr const char* kExplanation =
+    "Suite families. As it is: people whose hands were not measured, in a glove of other dyes than the "
+    "tracker's. Then the tracker is given truths: hand and glove (its own mesh performs the movements); besides, "
+    "either pose and posture of the frame before, or the angles that it calls hidden. All but hidden: pose and "
+    "seen angles are true, hidden ones are as they were last seen. That is no bound, since an estimate can be "
+    "nearer. Lost frames stay lost.";
+
 struct Variant {
   std::string key, heading;
   Table families;
@@ -121,24 +128,14 @@ StudyResult run_limits(const StudyContext& context) {
        families(each(own, [&](const Run& r) { return track_after_truth(workbench, r); }))},
       {"hidden_angles", "or hidden angles", families(each(own, with_hidden_angles_true))},
       {"held", "all but hidden", families(each(own, with_hidden_angles_held))}};
-  return {
-      "limits",
-      "What limits profile recommended",
-      {table_of(
-           "limits_usable", "usable_percent", "Usable frames, %",
-           "Suite families. As it is: people whose hands were not measured, in a glove of other dyes than the "
-           "calibrated one's. Then the tracker is given truths: hand and glove (the tracker's own mesh performs "
-           "the "
-           "movements); besides, either pose and posture of the frame before, or the angles that it calls hidden. "
-           "All but hidden: pose and seen angles are true, hidden ones are as they were last seen. That is no "
-           "bound, "
-           "since an estimate can be nearer. Lost frames stay lost.",
-           variants),
-       table_of("limits_position", "position_error_mm", "Position, mm", "Of tracked frames.", variants),
-       table_of("limits_fingertips", "fingertip_error_mm", "Fingertips, mm", "Of tracked frames.", variants),
-       table_of("limits_posture", "posture_rms_deg", "Posture, RMS of 22 angles, deg", "Of tracked frames.",
-                variants)},
-      {}};
+  return {"limits",
+          "What limits profile recommended",
+          {table_of("limits_usable", "usable_percent", "Usable frames, %", kExplanation, variants),
+           table_of("limits_position", "position_error_mm", "Position, mm", "Of tracked frames.", variants),
+           table_of("limits_fingertips", "fingertip_error_mm", "Fingertips, mm", "Of tracked frames.", variants),
+           table_of("limits_posture", "posture_rms_deg", "Posture, RMS of 22 angles, deg", "Of tracked frames.",
+                    variants)},
+          {}};
 }
 
 }  // namespace glovebench::eval

@@ -57,11 +57,11 @@ std::string frames_html(const ExperimentResult& experiment, const PageMaterial& 
     table.rows.push_back({error.heading, fixed(experiment.aggregate_of(error.key).mean, 2), fixed(largest, 2),
                           worst->frame.frame, static_cast<int64_t>(worst->seed)});
     plots.push_back(curve_plot(experiment.runs.front(), error.key, largest));
+    if (material.worst_frames.empty()) continue;
     if (const std::string command = explain_command(*worst, material.from_files);
         std::ranges::count(commands, command) == 0)
       commands.push_back(command);
   }
-  if (material.worst_frames.empty()) commands.clear();  // `explain` cannot show the frames
   std::vector<std::string> names;
   for (const Cell& name : experiment_names(experiment.key)) names.push_back(cell_text(name, {}));
   const std::string name = to_string(experiment.key);
