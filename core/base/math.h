@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -23,6 +24,21 @@ inline std::optional<double> quantile_of(std::vector<double> values, double shar
   const auto at = values.begin() + std::min(place, static_cast<std::ptrdiff_t>(values.size()) - 1);
   std::ranges::nth_element(values, at);
   return *at;
+}
+
+/// The nearest points of two segments. Not of two without length.
+inline std::array<Eigen::Vector3d, 2> nearest_points(const std::array<Eigen::Vector3d, 2>& a,
+                                                     const std::array<Eigen::Vector3d, 2>& b) {
+  const Eigen::Vector3d along_a = a[1] - a[0], along_b = b[1] - b[0], between = a[0] - b[0];
+  const double aa = along_a.squaredNorm(), bb = along_b.squaredNorm(), ab = along_a.dot(along_b);
+  const double a_between = along_a.dot(between), b_between = along_b.dot(between);
+  const double determinant = aa * bb - ab * ab;
+  constexpr double kParallel = 1e-9;  // of aa * bb
+  double s = determinant > kParallel * aa * bb ? (ab * b_between - a_between * bb) / determinant : 0;
+  s = std::clamp(s, 0.0, 1.0);
+  const double t = std::clamp((ab * s + b_between) / bb, 0.0, 1.0);
+  s = std::clamp((ab * t - a_between) / aa, 0.0, 1.0);
+  return {a[0] + s * along_a, b[0] + t * along_b};
 }
 
 }  // namespace glovebench

@@ -46,7 +46,8 @@ class Articulated : public Method {
 
  private:
   TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
-  /// The frame before; for a whole hand also the matches and their mean.
+  /// The frame before; for a whole hand also the mean of the matches and the nearest one. The other matches gain
+  /// nothing.
   RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
                                          const HandLookUp& found, const LabeledCloud& cloud) const;
 
@@ -58,14 +59,13 @@ class Articulated : public Method {
 RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, const TrackResult* previous,
                                                     const HandLookUp& found, const LabeledCloud& cloud) const {
   RecycledVector<ArticulatedPose> all;
-  if (!result.matches.empty()) all.push_back({found.coarse.posture, result.T_camera_hand_coarse});
   if (previous != nullptr) all.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
-  for (const Match& match : result.matches) {
-    const CoarseEstimate one =
-        interpolate(*in_.database, std::span(&match, 1), found.ray, in_.config.lookup.interpolation_epsilon);
-    const PosedHand hand = in_.model->pose(one.posture);
-    all.push_back({one.posture, coarse_pose(*in_.model, hand, one.R_camera_hand, cloud.points)});
-  }
+  if (result.matches.empty()) return all;
+  all.push_back({found.coarse.posture, result.T_camera_hand_coarse});
+  const CoarseEstimate nearest = interpolate(*in_.database, std::span(result.matches).first(1), found.ray,
+                                             in_.config.lookup.interpolation_epsilon);
+  const PosedHand hand = in_.model->pose(nearest.posture);
+  all.push_back({nearest.posture, coarse_pose(*in_.model, hand, nearest.R_camera_hand, cloud.points)});
   return all;
 }
 

@@ -74,6 +74,7 @@ TEST(ArticulatedFit, takes_the_start_that_ends_best) {
 TEST(ArticulatedFit, leaves_what_it_cannot_see_where_the_frame_before_had_it) {
   // Seen along the fingers from the wrist, a fist hides its fingertips.
   ArticulatedPose truth{power_posture(), test_pose({0, 0.02, 0.7}, {0, 0, 0})};
+  truth.posture[kThumbCmcFlexion] = truth.posture[kThumbMcpFlexion] = 0;  // else it pierces the middle finger
   const View view(truth);
   Posture previous = truth.posture;
   const ArticulatedPose start = away_from(truth, 15, 3);

@@ -6,6 +6,7 @@
 
 #include "core/base/math.h"
 #include "core/hand/hand_model.h"
+#include "core/hand/solid_bones.h"
 #include "core/pose/closest_point.h"
 
 namespace glovebench {
@@ -69,6 +70,19 @@ struct NormalEquations {
   /// Pulls an angle by `away_deg`. `weight`: per square degree.
   void hold(int angle, double away_deg, double weight);
 };
+
+inline constexpr double kBonesMayOverlap = 0.002;  ///< m: flesh gives way, and the capsules are a mean hand's
+
+/// How two overlapping bones part.
+struct Parting {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the first, hand frame
+  double distance_mm = 0;                               ///< until they overlap by `kBonesMayOverlap`
+};
+/// Two fingers part so that each comes to its own side of the other. No distance if the direction is unknown.
+Parting parting(const BonePair& pair, const JointPoses& T_hand_joint);
+/// Adds a row: the angles part the bones. The hand's pose does not.
+void push_apart(NormalEquations& equations, const std::array<Screw, kAngleCount>& screws, const BonePair& pair,
+                const Parting& parting, double weight);
 
 /// One Jacobian row per pull.
 class PlainPullSums {
