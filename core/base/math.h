@@ -26,7 +26,7 @@ inline std::optional<double> quantile_of(std::vector<double> values, double shar
   return *at;
 }
 
-/// The nearest points of two segments. Not of two without length.
+/// The nearest points of two segments. Both need a length.
 inline std::array<Eigen::Vector3d, 2> nearest_points(const std::array<Eigen::Vector3d, 2>& a,
                                                      const std::array<Eigen::Vector3d, 2>& b) {
   const Eigen::Vector3d along_a = a[1] - a[0], along_b = b[1] - b[0], between = a[0] - b[0];

@@ -99,6 +99,7 @@ class Fit {
     schedule.rough = {3, 0, 1000, {round.wide_mm, round.middle_mm}, {0.01, 0.005}, {0.1, 0}, true};
     schedule.fine = {3, 0, 8000, {round.middle_mm, round.narrow_mm}, {0.005, 0.005}, {0, 0}, false};
     schedule.kept_starts = 1;
+    schedule.bones_weight = 0;  // their widths are not known yet
     const ArticulatedFit fit(std::make_shared<const HandModel>(hand()), schedule, Implementation::fast);
     for_each_view([&](size_t v) {
       const HandView& seen = views_[v].seen;

@@ -7,8 +7,8 @@ namespace glovebench {
 
 inline constexpr int kPalmOfBones = 5;  ///< after the five fingers, thumb first
 
-/// Two bones that may be apart: of two fingers, or of a finger and the palm. Around each lies a capsule of a hand's
-/// width.
+/// Two bones that can collide: of two fingers, or of a finger and the palm. Around each lies a capsule as thick as
+/// that part of a mean hand.
 struct BonePair {
   std::array<int, 2> fingers;
   std::array<uint32_t, 2> angles;          ///< bits of the angles that move each bone

@@ -46,8 +46,7 @@ class Articulated : public Method {
 
  private:
   TrackResult estimate(const DeviceFrame& frame, const TrackResult* previous, const StageObserver& observe);
-  /// The frame before; for a whole hand also the mean of the matches and the nearest one. The other matches gain
-  /// nothing.
+  /// The frame before; for a whole hand also the mean of the matches and the nearest one.
   RecycledVector<ArticulatedPose> starts(const TrackResult& result, const TrackResult* previous,
                                          const HandLookUp& found, const LabeledCloud& cloud) const;
 
@@ -62,6 +61,7 @@ RecycledVector<ArticulatedPose> Articulated::starts(const TrackResult& result, c
   if (previous != nullptr) all.push_back({previous->posture_unfiltered, previous->T_camera_hand_unfiltered});
   if (result.matches.empty()) return all;
   all.push_back({found.coarse.posture, result.T_camera_hand_coarse});
+  if (result.matches.size() == 1) return all;
   const CoarseEstimate nearest = interpolate(*in_.database, std::span(result.matches).first(1), found.ray,
                                              in_.config.lookup.interpolation_epsilon);
   const PosedHand hand = in_.model->pose(nearest.posture);

@@ -72,9 +72,8 @@ class Run {
     H_points_ = sum.H;
     sum.H += outline.H;
     sum.g = scale * sum.g + outline.g;
-    for_each_overlap([&](const BonePair& pair, const Parting& way) {
-      push_apart(sum, screws, pair, way, schedule_.bones_weight);
-    });
+    for (const BonePair& pair : overlapping_bones(hand_.T_hand_joint, kBonesMayOverlap))
+      push_apart(sum, screws, pair, schedule_.bones_weight);
     return sum;
   }
 
@@ -150,8 +149,7 @@ class Run {
     return sum / std::max(1, matched_points());
   }
 
-  /// The cost of the matched pose: mean squared truncated distances of points, of vertices to the mask, and
-  /// of overlapping bones, mm^2.
+  /// The cost of the matched pose: mean squared truncated distances of points, and of vertices to the mask, mm^2.
   double score(const ArticulatedPose& pose) const {
     const auto cost = [&](double distance_mm) {
       const double cut = std::min(distance_mm, schedule_.score_cut_mm);
@@ -162,10 +160,7 @@ class Run {
       of_points += cost(closest.face < 0 ? schedule_.score_cut_mm : 1000 * static_cast<double>(closest.distance));
     for_each_outside(pose, [&](size_t, const Pull& pull) { of_outline += cost(pull.distance_mm); });
     const double vertices = static_cast<double>(hand_.vertices.size()) / schedule_.outline_stride;
-    double of_bones = 0;
-    for_each_overlap([&](const BonePair&, const Parting& way) { of_bones += cost(way.distance_mm); });
-    return of_points / std::max(1, points()) + of_outline / vertices +
-           schedule_.bones_weight * of_bones / kPointsOfWeights;
+    return of_points / std::max(1, points()) + of_outline / vertices;
   }
 
  private:
@@ -185,13 +180,6 @@ class Run {
       visit(vertex, Pull{q, pose.T_camera_hand.linear().transpose() * direction,
                          1000 * (way->norm() - kOutlineSlack_px) * p.z() / camera.fx, schedule_.outline_weight});
     }
-  }
-
-  /// Calls `visit` with each two bones that overlap too much and how they part.
-  template <typename Visit>
-  void for_each_overlap(const Visit& visit) const {
-    for (const BonePair& pair : overlapping_bones(hand_.T_hand_joint, kBonesMayOverlap))
-      visit(pair, parting(pair, hand_.T_hand_joint));
   }
 
   const HandModel& model_;

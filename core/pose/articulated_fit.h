@@ -39,7 +39,7 @@ struct FitSchedule {
   double previous_weight = 0.003;  ///< pull to the previous posture, per square degree
   double outline_weight = 1;       ///< of a vertex outside the mask
   int outline_stride = 3;          ///< every nth vertex
-  double bones_weight = 1;         ///< of the distance on which two bones part
+  double bones_weight = 1;         ///< of two bones that pierce each other; a point's is 1
   double score_cut_mm = 15;        ///< cap on distances that compare starts
 };
 

@@ -74,7 +74,6 @@ TEST(ArticulatedFit, takes_the_start_that_ends_best) {
 TEST(ArticulatedFit, leaves_what_it_cannot_see_where_the_frame_before_had_it) {
   // Seen along the fingers from the wrist, a fist hides its fingertips.
   ArticulatedPose truth{power_posture(), test_pose({0, 0.02, 0.7}, {0, 0, 0})};
-  truth.posture[kThumbCmcFlexion] = truth.posture[kThumbMcpFlexion] = 0;  // else it pierces the middle finger
   const View view(truth);
   Posture previous = truth.posture;
   const ArticulatedPose start = away_from(truth, 15, 3);
@@ -82,6 +81,29 @@ TEST(ArticulatedFit, leaves_what_it_cannot_see_where_the_frame_before_had_it) {
   const ArticulatedEstimate without = make_fit()(view.observation(), std::span(&start, 1), nullptr);
   EXPECT_LT(posture_distance(with.pose.posture, truth.posture),
             0.85 * posture_distance(without.pose.posture, truth.posture));
+}
+
+TEST(ArticulatedFit, pushes_a_hidden_finger_out_of_its_neighbor) {
+  const ArticulatedPose truth = some_truth();
+  View view(truth);
+  std::erase_if(view.points, [](const LabeledPoint& point) {
+    return std::ranges::any_of(std::array{kIndexProximal, kIndexIntermediate, kIndexDistal},
+                               [&](int patch) { return point.label == patch_labels()[patch]; });
+  });
+  ArticulatedPose start = truth;
+  start.posture[kIndexMcpAbduction] = -0.2;
+  const auto overlap_mm = [&](const FitSchedule& schedule) {
+    const ArticulatedEstimate found =
+        make_fit(Implementation::fast, schedule)(view.observation(), std::span(&start, 1), nullptr);
+    double most = 0;
+    for (const BonePair& pair : overlapping_bones(test_hand().pose(found.pose.posture).T_hand_joint, 0))
+      most = std::max(most, 1000 * pair.overlap);
+    return most;
+  };
+  FitSchedule soft;
+  soft.bones_weight = 0;
+  EXPECT_GT(overlap_mm(soft), 5);
+  EXPECT_LT(overlap_mm({}), 3);
 }
 
 TEST(ArticulatedFit, outline_bends_a_finger_whose_end_no_point_shows) {

@@ -8,9 +8,6 @@
 namespace glovebench {
 namespace {
 
-/// Cosine: fingers cross if the way to the neighbor points so far against that of their knuckles.
-constexpr double kWrongSide = 0.5;
-
 Eigen::Vector3d barycentric_in(const Surface::Face& face, const Eigen::Vector3f& p) {
   const Eigen::Vector3d ab = (face.b - face.a).cast<double>(), ac = (face.c - face.a).cast<double>();
   const Eigen::Vector3d ap = (p - face.a).cast<double>(), normal = ab.cross(ac);
@@ -93,34 +90,25 @@ void NormalEquations::hold(int angle, double away_deg, double weight) {
   g[6 + angle] += weight * away_deg;
 }
 
-Parting parting(const BonePair& pair, const JointPoses& T_hand_joint) {
-  const Eigen::Vector3d between = pair.nearest[0] - pair.nearest[1];
-  const double distance = between.norm();
-  if (!(distance > kNoDirection)) return {};
-  const Eigen::Vector3d direction = between / distance;
-  const double to_part = pair.overlap - kBonesMayOverlap;
-  const auto is_long_finger = [](int finger) { return finger > 0 && finger < kPalmOfBones; };
-  if (is_long_finger(pair.fingers[0]) && is_long_finger(pair.fingers[1])) {
-    const auto knuckle = [&](int finger) -> Eigen::Vector3d {
-      return T_hand_joint[fingertip_joints()[finger] - 3].translation();
-    };
-    const Eigen::Vector3d across = (knuckle(pair.fingers[0]) - knuckle(pair.fingers[1])).normalized();
-    if (direction.dot(across) < -kWrongSide) return {-direction, 1000 * (to_part + 2 * distance)};
-  }
-  return {direction, 1000 * to_part};
+double may_overlap(const BonePair& pair) {
+  return pair.fingers[0] == 0 || pair.fingers[1] == 0 ? kThumbMayOverlap : kBonesMayOverlap;
 }
 
 void push_apart(NormalEquations& equations, const std::array<Screw, kAngleCount>& screws, const BonePair& pair,
-                const Parting& parting, double weight) {
+                double weight) {
+  const Eigen::Vector3d between = pair.nearest[0] - pair.nearest[1];
+  const double distance = between.norm();
+  const double excess_mm = 1000 * (pair.overlap - may_overlap(pair));
+  if (!(excess_mm > 0 && distance > kNoDirection)) return;
+  const Eigen::Vector3d direction = between / distance;
   StepVector row = StepVector::Zero();
   for (const int side : {0, 1}) {
-    const Vector6d motion =
-        row_of({pair.nearest[side], side == 0 ? parting.direction : Eigen::Vector3d(-parting.direction)});
+    const Vector6d motion = row_of({pair.nearest[side], side == 0 ? direction : Eigen::Vector3d(-direction)});
     for (int a = 0; a < kAngleCount; ++a)
       if (pair.angles[side] >> a & 1) row[6 + a] += on_rows(screws[a]).dot(motion);
   }
   equations.H += weight * row * row.transpose();
-  equations.g += weight * parting.distance_mm * row;
+  equations.g += weight * excess_mm * row;
 }
 
 std::optional<StepVector> solve_within_limits(const NormalEquations& equations, const Posture& posture,

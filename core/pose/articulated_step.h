@@ -71,18 +71,14 @@ struct NormalEquations {
   void hold(int angle, double away_deg, double weight);
 };
 
-inline constexpr double kBonesMayOverlap = 0.002;  ///< m: flesh gives way, and the capsules are a mean hand's
-
-/// How two overlapping bones part.
-struct Parting {
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< of the first, hand frame
-  double distance_mm = 0;                               ///< until they overlap by `kBonesMayOverlap`
-};
-/// Two fingers part so that each comes to its own side of the other. No distance if the direction is unknown.
-Parting parting(const BonePair& pair, const JointPoses& T_hand_joint);
-/// Adds a row: the angles part the bones. The hand's pose does not.
+/// By how much capsules may overlap, m. Flesh gives way; the thumb's tip presses on fingers, and its pad is thinner
+/// than its capsule.
+inline constexpr double kBonesMayOverlap = 0.002, kThumbMayOverlap = 0.006;
+double may_overlap(const BonePair& pair);
+/// If bones overlap by more, adds a row: the angles move them apart along their nearest points. The hand's pose
+/// does not.
 void push_apart(NormalEquations& equations, const std::array<Screw, kAngleCount>& screws, const BonePair& pair,
-                const Parting& parting, double weight);
+                double weight);
 
 /// One Jacobian row per pull.
 class PlainPullSums {
