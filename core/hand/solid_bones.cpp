@@ -38,8 +38,8 @@ std::vector<SolidBone> make_solid_bones() {
   return bones;
 }
 
-/// True if two bones may be apart. A finger's own bones, those of the palm, and the bones at a knuckle never are.
-bool may_be_apart(const SolidBone& a, const SolidBone& b) {
+/// False for bones that always touch: those of one finger, of the palm, and at a knuckle.
+bool can_collide(const SolidBone& a, const SolidBone& b) {
   if (a.finger == b.finger) return false;
   if (a.finger != kPalmOfBones && b.finger != kPalmOfBones) return true;
   const SolidBone& finger = a.finger == kPalmOfBones ? b : a;
@@ -55,7 +55,7 @@ RecycledVector<BonePair> overlapping_bones(const JointPoses& T_hand_joint, doubl
   for (size_t i = 0; i < bones.size(); ++i) {
     for (size_t k = 0; k < i; ++k) {
       const SolidBone &a = bones[i], &b = bones[k];
-      if (!may_be_apart(a, b)) continue;
+      if (!can_collide(a, b)) continue;
       const auto nearest = nearest_points({place(a.from), place(a.to)}, {place(b.from), place(b.to)});
       const double overlap = a.radius + b.radius - (nearest[0] - nearest[1]).norm();
       if (overlap > least) pairs.push_back({{a.finger, b.finger}, {a.angles, b.angles}, nearest, overlap});
