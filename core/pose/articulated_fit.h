@@ -32,7 +32,7 @@ struct FitStage {
 /// All starts run `trial`, the best `kept_starts` run `rough`, the best of these `fine`. Weights are for 1,000
 /// points: all points together count as many.
 struct FitSchedule {
-  FitStage trial{4, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
+  FitStage trial{3, 2, 500, {60, 29}, {0.1, 0.05}, {0.3, 0.2}, true};
   FitStage rough{6, 0, 700, {25, 12}, {0.04, 0.01}, {0.17, 0}, true};
   FitStage fine{2, 0, 8000, {12, 4}, {0.01, 0.005}, {0, 0}, false};
   int kept_starts = 2;
