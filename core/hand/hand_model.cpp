@@ -168,16 +168,19 @@ std::string HandModel::make_hash(const JointPoses& T_hand_joint) const {
 PosedHand HandModel::pose(const Posture& posture) const {
   PosedHand hand;
   hand.T_hand_joint = skeleton_.pose(posture);
-  std::array<Eigen::Matrix<double, 3, 4>, kJointCount> skinning;
-  for (int j = 0; j < kJointCount; ++j)
-    skinning[j] = (hand.T_hand_joint[j] * T_joint_bind_[j]).matrix().topRows<3>();
-  hand.vertices.reserve(bind_vertices_.size());
+  // A row of zeros below the affine matrices lets columns be added up in whole vectors.
+  std::array<Eigen::Matrix4d, kJointCount> skinning;
+  for (int j = 0; j < kJointCount; ++j) skinning[j] = (hand.T_hand_joint[j] * T_joint_bind_[j]).matrix();
+  hand.vertices.resize(bind_vertices_.size());
   for (size_t v = 0; v < bind_vertices_.size(); ++v) {
     const Influence& influence = influences_[v];
-    Eigen::Matrix<double, 3, 4> blended = skinning[influence.joint[0]] * double{influence.weight[0]};
+    Eigen::Matrix4d blended = skinning[influence.joint[0]] * double{influence.weight[0]};
     for (int i = 1; i < 4 && influence.weight[i] > 0; ++i)
       blended += skinning[influence.joint[i]] * double{influence.weight[i]};
-    hand.vertices.push_back((blended * bind_vertices_[v].homogeneous()).cast<float>());
+    const Eigen::Vector3d& p = bind_vertices_[v];
+    const Eigen::Vector4d posed =
+        (blended.col(0) * p.x() + blended.col(1) * p.y()) + blended.col(2) * p.z() + blended.col(3);
+    hand.vertices[v] = posed.head<3>().cast<float>();
   }
   if (side_ == Side::left) {
     for (Eigen::Vector3f& p : hand.vertices) p.x() = -p.x();

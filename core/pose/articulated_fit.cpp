@@ -46,21 +46,23 @@ class Run {
         seen_(seen),
         matcher_(model, hand_, subsample(seen.points, max_points), search) {}
 
-  /// Poses the hand and finds the closest points. `same_surface`: with the posture and the faces of the last call.
+  /// Poses the hand, finds the closest points and the vertices outside the mask. `same_surface`: with the posture
+  /// and the faces of the last call.
   void match(const ArticulatedPose& pose, bool same_surface) {
     if (!same_surface) {
       hand_ = model_.pose(pose.posture);
       matcher_.cull(pose.T_camera_hand);
     }
     matcher_.match(pose.T_camera_hand);
+    find_outside(pose.T_camera_hand);
   }
 
   /// The normal equations of points and outline at the pose that was matched.
-  NormalEquations equations(const ArticulatedPose& pose, const StepWeights& weights, bool outline_moves_pose) {
+  NormalEquations equations(const StepWeights& weights, bool outline_moves_pose) {
     const std::array<Screw, kAngleCount> screws = angle_screws(model_, hand_);
     PullSums of_points(screws), of_outline(screws);
     of_points.add({matcher_.points_hand(), matcher_.closest(), matcher_.surface()}, faces_, weights.pull);
-    for_each_outside(pose, [&](size_t vertex, const Pull& pull) { of_outline.add(pull, shares_[vertex]); });
+    for (const Outside& outside : outside_) of_outline.add(outside.pull, shares_[outside.vertex]);
     NormalEquations sum = of_points.equations(), outline = of_outline.equations();
     const double scale = kPointsOfWeights / std::max(1, points());
     if (!outline_moves_pose) {
@@ -150,7 +152,7 @@ class Run {
   }
 
   /// The cost of the matched pose: mean squared truncated distances of points, and of vertices to the mask, mm^2.
-  double score(const ArticulatedPose& pose) const {
+  double score() const {
     const auto cost = [&](double distance_mm) {
       const double cut = std::min(distance_mm, schedule_.score_cut_mm);
       return cut * cut;
@@ -158,18 +160,22 @@ class Run {
     double of_points = 0, of_outline = 0;
     for (const ClosestPoint& closest : matcher_.closest())
       of_points += cost(closest.face < 0 ? schedule_.score_cut_mm : 1000 * static_cast<double>(closest.distance));
-    for_each_outside(pose, [&](size_t, const Pull& pull) { of_outline += cost(pull.distance_mm); });
+    for (const Outside& outside : outside_) of_outline += cost(outside.pull.distance_mm);
     const double vertices = static_cast<double>(hand_.vertices.size()) / schedule_.outline_stride;
     return of_points / std::max(1, points()) + of_outline / vertices;
   }
 
  private:
-  /// Calls `visit` with each vertex that is seen outside the mask and the way back.
-  template <typename Visit>
-  void for_each_outside(const ArticulatedPose& pose, const Visit& visit) const {
+  /// A vertex that is seen outside the mask, and the way back.
+  struct Outside {
+    size_t vertex;
+    Pull pull;
+  };
+  void find_outside(const Eigen::Isometry3d& T_camera_hand) {
+    outside_.clear();
     const PinholeCamera& camera = seen_.camera;
     for (size_t vertex = 0; vertex < hand_.vertices.size(); vertex += schedule_.outline_stride) {
-      const Eigen::Vector3d q = hand_.vertices[vertex].cast<double>(), p = pose.T_camera_hand * q;
+      const Eigen::Vector3d q = hand_.vertices[vertex].cast<double>(), p = T_camera_hand * q;
       if (!(p.z() > 0.1)) continue;
       const Eigen::Vector2d uv = camera.project(p);
       if (uv.x() < 0 || uv.y() < 0 || uv.x() > camera.width - 1 || uv.y() > camera.height - 1) continue;
@@ -177,8 +183,9 @@ class Run {
       if (!way) continue;
       const double slope = way->x() * p.x() / p.z() + way->y() * p.y() / p.z();
       const Eigen::Vector3d direction = Eigen::Vector3d(way->x(), way->y(), -slope).normalized();
-      visit(vertex, Pull{q, pose.T_camera_hand.linear().transpose() * direction,
-                         1000 * (way->norm() - kOutlineSlack_px) * p.z() / camera.fx, schedule_.outline_weight});
+      outside_.push_back({vertex,
+                          {q, T_camera_hand.linear().transpose() * direction,
+                           1000 * (way->norm() - kOutlineSlack_px) * p.z() / camera.fx, schedule_.outline_weight}});
     }
   }
 
@@ -189,6 +196,7 @@ class Run {
   const HandObservation& seen_;
   PosedHand hand_;
   SurfaceMatcher matcher_;
+  RecycledVector<Outside> outside_;
   StepMatrix H_points_ = StepMatrix::Zero();
 };
 
@@ -224,11 +232,11 @@ ArticulatedEstimate ArticulatedFit::operator()(const HandObservation& seen, std:
     for (int i = 0; i < stage.steps; ++i) {
       run.match(pose, i > 0 && i < stage.rigid_steps);
       if (run.matched_points() < 3) return AlignmentStatus::no_shared_color;
-      if (i + 1 == stage.steps) candidate.score = run.score(pose);
+      if (i + 1 == stage.steps) candidate.score = run.score();
       const StepWeights weights{
           {between(stage.tukey_mm, i, stage.steps), evenly_between(stage.tangential, i, stage.steps)},
           between(stage.start_weight, i, stage.steps)};
-      NormalEquations equations = run.equations(pose, weights, stage.outline_moves_pose);
+      NormalEquations equations = run.equations(weights, stage.outline_moves_pose);
       hold(equations, pose.posture, starts[candidate.start].posture, weights.start);
       if (previous != nullptr) hold(equations, pose.posture, *previous, schedule_.previous_weight);
       const auto step = solve_within_limits(equations, pose.posture, i < stage.rigid_steps);

@@ -34,7 +34,7 @@ struct SearchWork {
   int64_t boxes = 0;
 };
 
-/// Equals `closest_points_plain` bit for bit (very thin faces: within `rounding_blur`). For one set of points that
+/// Equals `closest_points_plain` bit for bit (very thin faces: within `Boxes::blur`). For one set of points that
 /// moves little between calls. Later calls allocate nothing.
 class ClosestPointSearch {
  public:

@@ -135,6 +135,12 @@ PosedHand collapsed_hand() {
   return hand;
 }
 
+float rounding_blur(const Surface::Face& face) {
+  FacePackets packets;
+  packets.assign({&face, 1});
+  return packets.face_boxes.front().blur[0];
+}
+
 int thin_faces(const Surface& surface) {
   int count = 0;
   for (uint8_t label = 1; label <= kColorCount; ++label)

@@ -12,7 +12,9 @@ template <int kCount>
 struct alignas(64) Boxes {
   float low[3][kCount], high[3][kCount];  ///< [axis][box], m
   float length[kCount];                   ///< longest edge, m
-  float blur[kCount];                     ///< `rounding_blur`, 1/m
+  /// Rounding may place a thin face's closest point up to blur * D^2 outside it, at distance D. Infinite without
+  /// area. 1/m
+  float blur[kCount];
 };
 
 /// Faces of one color.
@@ -34,9 +36,5 @@ struct FacePackets {
   int packet_count() const { return static_cast<int>(face_boxes.size()); }
   void assign(std::span<const Surface::Face> surface_faces);
 };
-
-/// Rounding may place a thin face's closest point up to blur * D^2 outside it, at distance D. Infinite without
-/// area.
-float rounding_blur(const Surface::Face& face);
 
 }  // namespace glovebench

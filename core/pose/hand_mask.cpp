@@ -69,8 +69,8 @@ void HandMask::assign(const DepthImage& depth, const DeviceFrame& frame, const P
 
 std::optional<Eigen::Vector2d> HandMask::way_back_px(const Eigen::Vector2d& uv_px) const {
   if (is_empty_) return {};
-  const int u = std::clamp(static_cast<int>(std::lround(uv_px.x())), box_.left, box_.right - 1);
-  const int v = std::clamp(static_cast<int>(std::lround(uv_px.y())), box_.top, box_.bottom - 1);
+  const int u = std::clamp(static_cast<int>(uv_px.x() + 0.5), box_.left, box_.right - 1);
+  const int v = std::clamp(static_cast<int>(uv_px.y() + 0.5), box_.top, box_.bottom - 1);
   const Offset& offset = offsets_[static_cast<size_t>(v - box_.top) * width_ + (u - box_.left)];
   const Eigen::Vector2d way = Eigen::Vector2d(u + offset.du, v + offset.dv) - uv_px;
   if (way.squaredNorm() <= 1) return {};

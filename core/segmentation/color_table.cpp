@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -51,13 +52,15 @@ uint64_t load_eight(const uint8_t* bytes) {
   return word;
 }
 
-/// True if the eight pixels whose neighborhoods begin at `corner` all equal their neighbors.
-bool eight_are_uniform(const uint8_t* corner, int stride) {
+/// Of the eight pixels whose neighborhoods begin at `corner`, how many come before the first that differs from a
+/// neighbor.
+int uniform_pixels(const uint8_t* corner, int stride) {
   const uint64_t center = load_eight(corner + stride + 1);
   uint64_t difference = 0;
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) difference |= center ^ load_eight(corner + row * stride + column);
-  return difference == 0;
+  static_assert(std::endian::native == std::endian::little, "the first pixel is in the lowest byte");
+  return std::countr_zero(difference) / 8;
 }
 
 /// Gives each pixel `answer(u, v, corner, stride)`, which must be the pixel's own label if all neighbors have it.
@@ -67,13 +70,13 @@ LabelImage filter_3x3(const LabelImage& labels, const Answer& answer) {
   LabelImage filtered = labels;
   for (int v = 0; v < labels.height(); ++v) {
     const uint8_t* row = padded.row(v);
-    for (int u = 0; u < labels.width(); ++u) {
+    for (int u = 0; u < labels.width();) {
       // Most of an image is uniform; eight such pixels cost nine reads.
-      if (u + 8 <= labels.width() && eight_are_uniform(row + u, padded.stride())) {
-        u += 7;
-        continue;
-      }
+      const int uniform = u + 8 <= labels.width() ? uniform_pixels(row + u, padded.stride()) : 0;
+      u += uniform;
+      if (uniform == 8) continue;
       filtered(u, v) = answer(u, v, row + u, padded.stride());
+      ++u;
     }
   }
   return filtered;
@@ -121,14 +124,16 @@ constexpr int kFewestVotes = 2;  // of a pixel without a label: one alone may be
 
 using Votes = std::array<int, kColorCount + 1>;
 
-/// Counts labels in the neighborhood of (u, v), on its surface; index 0 counts all.
-Votes votes_at(const LabelImage& labels, const DepthImage& depth, int u, int v, double depth_step) {
+/// Counts labels in a pixel's neighborhood that begins at `corner`, on its surface; index 0 counts all.
+Votes votes_at(const uint8_t* corner, int stride, const DepthImage& depth, int u, int v, double depth_step) {
   Votes votes{};
-  for (int j = v - 1; j <= v + 1; ++j) {
-    for (int i = u - 1; i <= u + 1; ++i) {
-      if (!labels.contains(i, j) || labels(i, j) == 0) continue;
-      if (std::abs(static_cast<double>(depth(i, j)) - depth(u, v)) >= depth_step) continue;
-      ++votes[labels(i, j)];
+  const double z = depth(u, v);
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      const uint8_t label = corner[row * stride + column];
+      if (label == 0 || label == kOutside) continue;
+      if (std::abs(static_cast<double>(depth(u + column - 1, v + row - 1)) - z) >= depth_step) continue;
+      ++votes[label];
       ++votes[0];
     }
   }
@@ -194,8 +199,9 @@ LabelImage majority_filter(const LabelImage& labels) {
 
 LabelImage surface_majority(const LabelImage& labels, const DepthImage& depth, double depth_step) {
   check(labels.width() == depth.width() && labels.height() == depth.height(), "labels and depth are of one camera");
-  return filter_3x3(labels, [&](int u, int v, const uint8_t*, int) {
-    return depth(u, v) > 0 ? winner(votes_at(labels, depth, u, v, depth_step), labels(u, v)) : labels(u, v);
+  return filter_3x3(labels, [&](int u, int v, const uint8_t* corner, int stride) {
+    const uint8_t own = corner[stride + 1];
+    return depth(u, v) > 0 ? winner(votes_at(corner, stride, depth, u, v, depth_step), own) : own;
   });
 }
 

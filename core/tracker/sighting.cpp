@@ -103,11 +103,10 @@ void HandView::assign(const Sighting& seen, const DeviceFrame& frame, const Work
   points.reserve(cloud.points.size());
   size_t next = 0;
   for (int v = 0; v < seen.depth.height(); ++v) {
-    for (int u = 0; u < seen.depth.width(); ++u) {
-      if (cloud.labels(u, v) == 0) continue;
+    for_each_nonzero(cloud.labels, v, [&](int u) {
       const LabeledPoint& point = cloud.points[next++];
       if (!is_at_edge(seen.depth, u, v)) points.push_back(point);
-    }
+    });
   }
 }
 
