@@ -169,6 +169,8 @@ TEST_F(CommandLine, NamesThatDoNotExist) {
   EXPECT_THAT(refusal(run_of("sied_3")), HasSubstr("; did you mean side_3?"));
   EXPECT_THAT(refusal({"run", "fig10", "-o", output_}), HasSubstr("expected one of fig7"));
   EXPECT_EQ(refusal({"run", "fig8", "--dry-run"}), "glovebench: run fig8: --dry-run does not go with a study\n");
+  EXPECT_EQ(refusal({"run", "limits", "--profile", "paper"}),
+            "glovebench: run limits: --profile does not go with this study, which has its own settings\n");
   EXPECT_THAT(refusal({"run", "--suite", "quik", "-o", output_}), HasSubstr("; did you mean quick?"));
   EXPECT_THAT(refusal({"explain", path("nothing"), "3"}), HasSubstr("nothing"));
   EXPECT_THAT(refusal({"explain", folder_, "3"}), HasSubstr("found a folder of runs, expected one of " + output_));

@@ -122,6 +122,10 @@ struct RunCommand {
                              "--noise", "--gain", "--subject", "--appearance", "--hand", "--mcap", "--streaming"})
       if (command.given(flag)) throw Error(fmt::format("run {}: {} does not go with a study", study_name, flag));
     const Study& chosen = study(study_name);
+    for (const char* flag : {"--profile", "--config", "--method", "--cascade"})
+      if (chosen.own_settings && command.given(flag))
+        throw Error(
+            fmt::format("run {}: {} does not go with this study, which has its own settings", study_name, flag));
     if (choices.are_several() && choices.cascades.size() < 2)
       throw Error(study_name, "flags", "several settings", "several --cascade alone");
     StudyOptions options{common.tracker_config(), {}, quick, {}};

@@ -32,8 +32,9 @@ struct Study {
   std::string_view name;  ///< "fig8"
   std::string_view title;
   reports::StudyResult (*run)(const StudyContext& context);
-  double cpu_s;             ///< per seed, roughly
-  bool on_request = false;  ///< only if named
+  double cpu_s;               ///< per seed, roughly
+  bool on_request = false;    ///< only if named
+  bool own_settings = false;  ///< ignores StudyOptions::tracker
 };
 /// In running order.
 const std::vector<Study>& studies();
