@@ -168,7 +168,7 @@ std::string HandModel::make_hash(const JointPoses& T_hand_joint) const {
 PosedHand HandModel::pose(const Posture& posture) const {
   PosedHand hand;
   hand.T_hand_joint = skeleton_.pose(posture);
-  // A row of zeros below the affine matrices lets columns be added up in whole vectors.
+  // Whole matrices, although their last row is never used: their columns are whole vectors.
   std::array<Eigen::Matrix4d, kJointCount> skinning;
   for (int j = 0; j < kJointCount; ++j) skinning[j] = (hand.T_hand_joint[j] * T_joint_bind_[j]).matrix();
   hand.vertices.resize(bind_vertices_.size());

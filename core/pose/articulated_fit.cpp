@@ -178,7 +178,7 @@ class Run {
       const Eigen::Vector3d q = hand_.vertices[vertex].cast<double>(), p = T_camera_hand * q;
       if (!(p.z() > 0.1)) continue;
       const Eigen::Vector2d uv = camera.project(p);
-      if (uv.x() < 0 || uv.y() < 0 || uv.x() > camera.width - 1 || uv.y() > camera.height - 1) continue;
+      if (!(uv.x() >= 0 && uv.y() >= 0 && uv.x() <= camera.width - 1 && uv.y() <= camera.height - 1)) continue;
       const std::optional<Eigen::Vector2d> way = seen_.mask.way_back_px(uv);
       if (!way) continue;
       const double slope = way->x() * p.x() / p.z() + way->y() * p.y() / p.z();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace glovebench {
@@ -61,8 +62,9 @@ Boxes<FacePackets::kFaces> boxes_around(const Corners& faces) {
 
   Boxes<FacePackets::kFaces> boxes;
   const auto lanes = [](float* values) { return Eigen::Map<Lanes, Eigen::Aligned16>(values); };
-  lanes(boxes.length) = length2.sqrt();
-  lanes(boxes.blur) = 2 * 4 * kAreas * length2.sqrt() / height2;
+  // Eigen's square root depends on the processor.
+  for (int i = 0; i < FacePackets::kFaces; ++i) boxes.length[i] = std::sqrt(length2[i]);
+  lanes(boxes.blur) = 2 * 4 * kAreas * lanes(boxes.length) / height2;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = faces.a.col(axis), b = faces.b.col(axis), c = faces.c.col(axis);
     lanes(boxes.low[axis]) = a.min(b).min(c);
